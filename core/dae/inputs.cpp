@@ -408,7 +408,7 @@ std::optional<Inputs::TimeFunctions> Inputs::time_functions() const {
     if (piece.amplitude != 0 && piece.omega != 0) omegas.insert(piece.omega);
   };
   for (const Motion& m : motions_) {
-    look(m.piece, m.by_position ? 0 : 1);
+    if (m.block < 0) look(m.piece, m.by_position ? 0 : 1);
   }
   for (const Force& f : forces_) look(f.piece, 0);
   for (const BlockSignals::Generator& g : blocks_.generators()) look(*g.piece, 0);

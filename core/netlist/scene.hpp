@@ -203,8 +203,8 @@ struct Scene {
   std::vector<std::string> keep;       ///< names of reductions that are not applied: core/network/reductions.hpp
 
   /// How the time between two events is crossed.
-  enum class Method { automatic, ida, exact };
-  Method method = Method::automatic;
+  enum class Method { ida, exact };
+  Method method = Method::ida;
   Spot method_spot;
   enum class StartFrom {
     given,   ///< the start values of nodes and elements

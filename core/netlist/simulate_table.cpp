@@ -68,14 +68,15 @@ void read_output(const TomlEntry* output, const Environment& environment, Contex
   }
 }
 
-/// The enumerator whose word is given; the words are in the order of the enumerators, of which there are three.
+/// The enumerator whose word is given; the words are in the order of the enumerators.
 template <class Enumeration>
 void read_one_of(const TomlEntry* entry, const std::vector<std::string>& words, DiagnosticList& diagnostics, Enumeration& chosen) {
   if (!entry || !expect_string(entry->value, "`" + entry->key + "`", diagnostics)) return;
   const auto found = std::find(words.begin(), words.end(), entry->value.text);
   if (found == words.end()) {
-    diagnostics.error(entry->value.spot, "`" + entry->key + "` must be `" + words[0] + "`, `" + words[1] + "` or `" + words[2] + "`, but is `" + entry->value.text + "`",
-                      did_you_mean(entry->value.text, words));
+    std::string all;
+    for (std::size_t k = 0; k < words.size(); ++k) all += (k == 0 ? "`" : k + 1 < words.size() ? ", `" : " or `") + words[k] + "`";
+    diagnostics.error(entry->value.spot, "`" + entry->key + "` must be " + all + ", but is `" + entry->value.text + "`", did_you_mean(entry->value.text, words));
     return;
   }
   chosen = static_cast<Enumeration>(found - words.begin());
@@ -97,7 +98,7 @@ const TomlEntry* read_simulate(const TomlEntry& simulate, const Environment& env
   scene.start = value(reader.find("start"), Quantity::time, 0);
   read_one_of(reader.find("start_from"), {"given", "rest", "steady"}, diagnostics, scene.start_from);
   const TomlEntry* method = reader.find("method");
-  read_one_of(method, {"auto", "ida", "exact"}, diagnostics, scene.method);
+  read_one_of(method, {"ida", "exact"}, diagnostics, scene.method);
   if (method) scene.method_spot = method->value.spot;
   const TomlEntry* stop = reader.require("stop", simulate.spot, "when the run ends: stop = \"1 s\"");
   reader.find("stop_when");  // see StopCondition

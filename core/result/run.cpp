@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -297,19 +296,6 @@ Summary run_divided(const Scene& scene, const RunSettings& settings) {
 
 namespace {
 
-/// Why exact arcs do not cross the time between events; "" if they do. Throws SimulationError where they are asked for in vain.
-std::string no_arcs(const Network& network, Scene::Method method) {
-  if (method == Scene::Method::ida) return "the netlist asks for it";
-  const std::optional<NotLinear> obstacle = not_linear(network);
-  if (method == Scene::Method::exact && obstacle) {
-    throw SimulationError(network.scene->method == method ? network.scene->method_spot : obstacle->spot,
-                          fmt::format("`method = \"exact\"` needs laws that are linear between events, but {}; `\"auto\"` and `\"ida\"` simulate any scene", obstacle->reason));
-  }
-  if (obstacle) return obstacle->reason;
-  const bool large = method == Scene::Method::automatic && network.nodes() > static_cast<std::size_t>(numerics::arc_unknowns);
-  return large ? fmt::format("there are more than {} nodes", numerics::arc_unknowns) : "";
-}
-
 /// One scene as a whole.
 Summary integrate(const Scene& scene, const RunSettings& settings, bool locate_events) {
   if (const std::optional<Scene> converted = in_common_units(scene)) return integrate(*converted, settings, locate_events);
@@ -319,15 +305,15 @@ Summary integrate(const Scene& scene, const RunSettings& settings, bool locate_e
   const std::vector<char> needed = needed_positions(network);
   Recorder recorder(network, settings);
   Profile profile;
-  // A lower order is one of IDA.
-  const Scene::Method asked = settings.method.value_or(scene.method);
-  const Scene::Method method = asked == Scene::Method::automatic && settings.order < RunSettings{}.order ? Scene::Method::ida : asked;
-  const bool exact = no_arcs(network, method).empty();
+  const bool exact = settings.method.value_or(scene.method) == Scene::Method::exact;
+  if (const std::optional<NotLinear> obstacle = exact ? not_linear(network) : std::nullopt) {
+    throw SimulationError(scene.method == Scene::Method::exact ? scene.method_spot : obstacle->spot,
+                          fmt::format("`method = \"exact\"` needs laws that are linear between events, but {}; without `method` any scene is simulated", obstacle->reason));
+  }
   const SimulationSettings how{.stop = scene.stop - scene.start,
                                .accuracy = settings.tolerance.value_or(scene.accuracy),
                                .order = settings.order,
                                .exact = exact,
-                               .arc_steps = method == Scene::Method::exact ? std::numeric_limits<double>::infinity() : numerics::arc_steps,
                                .locate_events = locate_events,
                                .switch_times = settings.events != nullptr || settings.event,
                                .interrupt = settings.interrupt,
@@ -382,7 +368,10 @@ Summary integrate(const Scene& scene, const RunSettings& settings, bool locate_e
 
 std::string no_arcs(const Scene& scene) {
   if (const std::optional<Scene> converted = in_common_units(scene)) return no_arcs(*converted);
-  return no_arcs(build_network(scene), scene.method);
+  Scene exact = scene;
+  exact.method = Scene::Method::exact;
+  const std::optional<NotLinear> obstacle = not_linear(build_network(exact));
+  return obstacle ? obstacle->reason : "";
 }
 
 Summary run_whole(const Scene& scene, const RunSettings& settings) { return integrate(scene, settings, true); }

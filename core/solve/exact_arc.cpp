@@ -231,25 +231,28 @@ struct LinearEquations {
   }
 
   const Level& level(int k) {
-    while (static_cast<int>(levels.size()) <= k) {
-      const int number = static_cast<int>(levels.size());
-      Level next;
-      const Index r = A.rows(), count = functions.count();
-      next.states.resize(last_node * r, (count + 1) * r);
-      next.functions.resize(count, last_node + 1);
-      for (int i = 0; i <= last_node; ++i) {
-        functions.evaluate(nodes_of_step.place[at(i)] * length(number), next.functions.col(i).data());
-        if (i == 0) continue;
-        Propagator& p = next.at_node[at(i) - 1];
-        const double place = nodes_of_step.place[at(i)];
-        p = number == 0 ? short_propagator(A, functions, place * shortest) : doubled(levels.back().at_node[at(i) - 1], functions, place * length(number - 1));
-        auto rows = next.states.middleRows((i - 1) * r, r);
-        rows.leftCols(r) = p.change + MatrixXd::Identity(r, r);
-        for (Index j = 0; j < count; ++j) rows.middleCols((j + 1) * r, r) = p.response[at(static_cast<int>(j))];
-      }
-      levels.push_back(std::move(next));
-    }
+    if (levels.empty()) levels.push_back(make_level(shortest, nullptr));
+    while (static_cast<int>(levels.size()) <= k) levels.push_back(make_level(length(static_cast<int>(levels.size())), &levels.back()));
     return levels[at(k)];
+  }
+
+  /// Steps of this length: by Taylor's series, or by doubling those of half the length.
+  Level make_level(double of_step, const Level* half) const {
+    Level level;
+    const Index r = A.rows(), count = functions.count();
+    level.states.resize(last_node * r, (count + 1) * r);
+    level.functions.resize(count, last_node + 1);
+    for (int i = 0; i <= last_node; ++i) {
+      const double tau = nodes_of_step.place[at(i)] * of_step;
+      functions.evaluate(tau, level.functions.col(i).data());
+      if (i == 0) continue;
+      Propagator& p = level.at_node[at(i) - 1];
+      p = half ? doubled(half->at_node[at(i) - 1], functions, tau / 2) : short_propagator(A, functions, tau);
+      auto rows = level.states.middleRows((i - 1) * r, r);
+      rows.leftCols(r) = p.change + MatrixXd::Identity(r, r);
+      for (Index j = 0; j < count; ++j) rows.middleCols((j + 1) * r, r) = p.response[at(static_cast<int>(j))];
+    }
+    return level;
   }
 };
 
@@ -258,7 +261,6 @@ struct LinearEquations {
 struct ExactArc::Implementation {
   Dae& dae;
   const std::vector<double>& tolerance;
-  double most_steps;
   Index n;
   std::vector<LinearEquations> known;  ///< of the modes of the laws so far
   std::size_t present = 0;
@@ -277,8 +279,8 @@ struct ExactArc::Implementation {
   mutable NodeShares shares;         ///< there
   std::vector<double> entries, zero, at_rest;
 
-  Implementation(Dae& d, const std::vector<double>& tol, double most)
-      : dae(d), tolerance(tol), most_steps(most), n(d.size()), y0(n), y(n, last_node + 1), yp(n, last_node + 1), entries(at(d.pattern().entries())), zero(at(d.size()), 0), at_rest(zero) {}
+  Implementation(Dae& d, const std::vector<double>& tol)
+      : dae(d), tolerance(tol), n(d.size()), y0(n), y(n, last_node + 1), yp(n, last_node + 1), entries(at(d.pattern().entries())), zero(at(d.size()), 0), at_rest(zero) {}
 
   LinearEquations& equations() { return known[present]; }
 
@@ -398,6 +400,7 @@ struct ExactArc::Implementation {
     const LinearEquations::Level& level = equations().level(number);
     const Index r = z.size();
     step = equations().length(number);
+    place = not_given;
     states.resize(r, last_node + 1);
     states.col(0) = z;
     Eigen::Map<VectorXd>(states.data() + r, r * last_node).noalias() = level.states * drive;
@@ -424,7 +427,6 @@ struct ExactArc::Implementation {
     drive.resize(z.size() * (pushes.cols() + 1));
     drive.head(z.size()) = z;
     drive.tail(pushes.size()) = Eigen::Map<const VectorXd>(pushes.data(), pushes.size());
-    place = not_given;
     const double left = length - from;
     int level = std::min(next_level, numerics::arc_levels);
     const double fastest = e.functions.omegas.empty() ? 0 : e.functions.omegas.back();
@@ -452,7 +454,7 @@ struct ExactArc::Implementation {
   }
 };
 
-ExactArc::ExactArc(Dae& dae, const std::vector<double>& tolerance, double most_steps) : impl_(std::make_unique<Implementation>(dae, tolerance, most_steps)) {}
+ExactArc::ExactArc(Dae& dae, const std::vector<double>& tolerance) : impl_(std::make_unique<Implementation>(dae, tolerance)) {}
 
 ExactArc::~ExactArc() = default;
 
@@ -469,7 +471,7 @@ bool ExactArc::begin(TimePoint t, const std::vector<double>& y, double length) {
   if (!e.regular) return false;
   const TimeFunctions of_inputs{functions->degree, functions->omegas};
   e.respond_to(of_inputs, length);
-  if (length > s.most_steps * e.length(numerics::arc_levels)) return false;
+  if (length > numerics::arc_steps * e.length(numerics::arc_levels)) return false;
   if (!s.find_given(of_inputs)) return false;
   s.z = VectorXd::Zero(e.A.rows());
   s.from = 0;

@@ -16,8 +16,8 @@ namespace rheonet {
 /// is only taken where it has converged.
 class ExactArc {
  public:
-  /// `tolerance[i]`: what is negligible of unknown i; read at every step. Both must outlive this. No arc is to take more than `most_steps`.
-  ExactArc(Dae& dae, const std::vector<double>& tolerance, double most_steps);
+  /// `tolerance[i]`: what is negligible of unknown i; read at every step. Both must outlive this.
+  ExactArc(Dae& dae, const std::vector<double>& tolerance);
   ~ExactArc();
 
   /// Begins at t from a consistent state; the inputs are smooth for `length` [s]. False if there is no arc: a law or an input is of

@@ -95,7 +95,7 @@ struct Integrator::Implementation {
     fired.assign(at(event_functions.count()), 0);
     for (std::vector<double>* functions : {&left, &between, &right, &band}) functions->assign(fired.size(), 0);
     locate = options.locate_events;
-    if (options.exact) arc = std::make_unique<ExactArc>(dae, tol, options.arc_steps);
+    if (options.exact) arc = std::make_unique<ExactArc>(dae, tol);
   }
 
   ~Implementation() {
@@ -228,7 +228,7 @@ struct Integrator::Implementation {
   /// True if a step of an exact arc passes an event. Such steps are long: a function may fall through 0 and come back. Between equal
   /// parts it is a polynomial of degree 4 as far as one can see; where that one comes near 0, the function is looked at.
   bool passes_event(double end) {
-    constexpr int parts = 4, finer = 4;
+    constexpr int parts = numerics::arc_parts, finer = parts;
     std::vector<double> times;
     struct Dip { std::size_t function; double time; };
     std::vector<Dip> dips;

@@ -42,7 +42,6 @@ class Integrator {
     /// Locate each event within its step; if false, an event is taken to be at the end of its step, as many programs do.
     bool locate_events = true;
     bool exact = false;  ///< by exact arcs (exact_arc.hpp) wherever equations and inputs allow it
-    double arc_steps = numerics::arc_steps;  ///< but for intervals that may take more steps
   };
 
   /// `tolerance[i]` is the allowed local error of unknown i (absolute, > 0), and a change of it below `grain[i]` is

@@ -42,7 +42,7 @@ class Run {
         transition_(network, classified_, inputs_),
         error_model_(network, classified_, settings.stop),
         tolerances_(network, tolerance(error_model_.local_share())),
-        mode_cache_(network, classified_, inputs_, needed, modes_, tolerances_, {.order = settings.order, .locate_events = settings.locate_events, .exact = settings.exact, .arc_steps = settings.arc_steps}),
+        mode_cache_(network, classified_, inputs_, needed, modes_, tolerances_, {.order = settings.order, .locate_events = settings.locate_events, .exact = settings.exact}),
         mode_changes_(network, inputs_),
         chatter_(network.scene->elements.size() + 1, settings.accuracy),
         regularisation_(network) {

@@ -35,7 +35,6 @@ struct SimulationSettings {
   double accuracy = 1e-6;
   int order = Integrator::highest_order;  ///< highest order of the method: see Integrator::Options
   bool exact = false;         ///< see Integrator::Options
-  double arc_steps = numerics::arc_steps;
   bool locate_events = true;  ///< see Integrator::Options
   bool switch_times = true;  ///< locate the time within a step at which a pair yields, not only the step
   const std::atomic<bool>* interrupt = nullptr;

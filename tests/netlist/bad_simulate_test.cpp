@@ -29,7 +29,7 @@ duration = 3
 scene.toml:5:1: error: unknown key `duration` of [simulate]
     5 | duration = 3
       | ^
-  its keys are `start`, `start_from`, `stop`, `stop_when`, `accuracy`, `output` and `record`
+  its keys are `start`, `start_from`, `method`, `stop`, `stop_when`, `accuracy`, `output` and `record`
 )~"},
       {"a key of [simulate] among the tables",
        R"~(

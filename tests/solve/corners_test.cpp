@@ -39,7 +39,6 @@ body = {{ type = "mass", at = "body", mass = {} }}
 k1 = {{ type = "spring", between = ["body", "ground"], stiffness = {} }}
 c1 = {{ type = "dashpot", between = ["body", "ground"], damping = {} }}
 [simulate]
-method = "ida"
 stop = 2
 accuracy = {}
 output = {{ points = {} }}
@@ -98,7 +97,6 @@ oil = {{ type = "dashpot", between = ["grip", "body"], damping = {} }}
 body = {{ type = "mass", at = "body", mass = {} }}
 rub = {{ type = "slider", between = ["body", "ground"], coulomb = 400 }}
 [simulate]
-method = "ida"
 stop = 2
 accuracy = {}
 record = ["body.position"]
@@ -124,7 +122,6 @@ oil = { type = "dashpot", between = ["grip", "body"], damping = 31 }
 body = { type = "mass", at = "body", mass = 1.3 }
 k1 = { type = "spring", between = ["body", "ground"], stiffness = 210 }
 [simulate]
-method = "ida"
 stop = 2
 record = ["body.position"]
 )"));

@@ -187,21 +187,22 @@ TEST_CASE("what is not linear is left to IDA, or named") {
     const std::string message = refusal(toml);
     CHECK_MESSAGE(message.find("`method = \"exact\"` needs laws that are linear between events, but " + reason) != std::string::npos, message);
     Scene scene = scene_of(toml);
-    scene.method = Scene::Method::automatic;
+    scene.method = Scene::Method::ida;
     Summary summary;
     simulate(scene, &summary);
     CHECK_EQ(summary.arc_steps, 0);
   }
-  CHECK(refusal("[elements]\n" + mass + "[simulate]\nstop = 1\nmethod = \"arcs\"").find("`method` must be `auto`, `ida` or `exact`, but is `arcs`") != std::string::npos);
+  CHECK(refusal("[elements]\n" + mass + "[simulate]\nstop = 1\nmethod = \"arcs\"").find("`method` must be `ida` or `exact`, but is `arcs`") != std::string::npos);
 }
 
 // The fast motion decays within 1e-9 s: no step of an arc is long enough.
-TEST_CASE("stiff scenes are left to IDA where the method is chosen automatically") {
+TEST_CASE("what is too stiff for exact arcs is left to IDA") {
   const std::string toml = R"([elements]
 m = { type = "mass", at = "b", mass = 1e-9 }
 c = { type = "dashpot", between = ["b", "ground"], damping = 1 }
 push = { type = "force", at = "b", force = { sine = 1, frequency = 0.1 } }
 [simulate]
+method = "exact"
 stop = 100
 )";
   Summary summary;

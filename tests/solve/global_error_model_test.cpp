@@ -25,7 +25,6 @@ k1 = {{ type = "spring", between = ["a", "ground"], stiffness = {} }}
 [nodes]
 a = {{ position = {} }}
 [simulate]
-method = "ida"
 stop = {}
 output = {{ points = 501 }}
 )", m, k, beside, x0, (cycles + 0.3) * 2 * M_PI * std::sqrt(m / k));
@@ -84,7 +83,6 @@ k1 = {{ type = "spring", between = ["a", "ground"], stiffness = {} }}
 c1 = {{ type = "dashpot", between = ["a", "ground"], damping = {} }}
 f1 = {{ type = "force", at = "a", force = {{ sine = 5, frequency = 2.1 }} }}
 [simulate]
-method = "ida"
 stop = {}
 )", m, k, damping, cycles / 2.1);
   };

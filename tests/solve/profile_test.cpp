@@ -34,7 +34,6 @@ fast_mass = {{ type = "mass", at = "fast", mass = 1 }}
 slow = {{ position = 0.3 }}
 fast = {{ position = 0.3 }}
 [simulate]
-method = "ida"
 stop = 5
 )",
                      4 * rate * rate);

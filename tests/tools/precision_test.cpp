@@ -32,13 +32,15 @@ TEST_CASE("precision prints what accuracy costs, writes it as CSV and draws it")
   std::getline(rows, line);
   CHECK(line.starts_with("order,accuracy,error,record,time,cpu_median,"));
   CHECK(line.ends_with(",error block.position,error k1.force"));
-  for (const std::string row : {"5,0.001,", "5,1e-06,", "5,1e-08,"}) {
+  for (const std::string row : {"5,0.001,", "5,1e-06,", "5,1e-08,", "5,1e-08,"}) {
     std::getline(rows, line);
     CHECK(line.starts_with(row));
   }
+  CHECK(contains(line, ",exact arcs,"));
   CHECK_FALSE(std::getline(rows, line));
   CHECK(contains(folder.read("prices.svg"), "CPU time [s]"));
   CHECK(contains(folder.read("prices.svg"), "order up to 5"));
+  CHECK(contains(result.out, "\nexact arcs\n"));
 
   const Finished piped = folder.shell("rheonet precision scene.toml --accuracies 1e-2 --runs 1 --accuracy 1e-2 -o -", 0);
   CHECK(piped.out.starts_with("order,accuracy,"));

@@ -25,7 +25,14 @@ core/solve/integrator.hpp highest_order
 core/solve/tolerances.hpp sorts
 core/solve/vectors.cpp block
 core/dae/sliding_mode.cpp 0.5
+core/result/energy.cpp 0.12948496616886969
+core/result/energy.cpp 0.27970539148927664
 core/result/energy.cpp 0.33998104358485626
+core/result/energy.cpp 0.38183005050511894
+core/result/energy.cpp 0.40584515137739717
+core/result/energy.cpp 0.41795918367346939
+core/result/energy.cpp 0.74153118559939444
+core/result/energy.cpp 0.94910791234275852
 core/result/energy.cpp 0.86113631159405258
 core/result/energy.cpp 0.65214515486254614
 core/result/energy.cpp 0.34785484513745386

@@ -59,7 +59,7 @@ ExitStatus price_scene(const Arguments& arguments) {
   PriceList list;
   const bool simulated = do_watched(read.sources, [&](const auto& progress) {
     std::vector<SimulationMethod> all = arguments.variants ? methods(scene) : std::vector<SimulationMethod>{{.name = "order up to 5"}};
-    if (scene.method != Scene::Method::ida && no_arcs(scene).empty()) all.push_back({.name = "exact arcs", .method = Scene::Method::exact});
+    if (no_arcs(scene).empty()) all.push_back({.name = "exact arcs", .method = Scene::Method::exact});
     if (arguments.certified) all.push_back({.name = "certified", .certified = true});
     std::move(asked->begin(), asked->end(), std::back_inserter(all));
     list = price_list(scene, {.tolerances = tolerances_of(arguments, scene),
