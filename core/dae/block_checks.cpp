@@ -141,7 +141,8 @@ void BlockSignals::refuse_undefined(double since) const {
   for (std::size_t k = 0; k + 1 < block.function->variables(); ++k) {
     double u = 0;
     for (const Blocks::Input& in : block.inputs) u += in.argument == k ? in.sign * source(in).value : 0;
-    arguments.push_back(fmt::format("{} = {:.6g}", block.function->variable(k), u));
+    arguments.push_back(std::isfinite(u) ? fmt::format("{} = {:.6g}", block.function->variable(k), u)
+                                         : fmt::format("{} is beyond the range of double precision", block.function->variable(k)));
   }
   if (network_->places[at(block.element)].role == Role::force) {
     throw SimulationError(network_->spot_of(block.element),

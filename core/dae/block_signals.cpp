@@ -210,7 +210,10 @@ Dual BlockSignals::of_function(int index, bool held) {
   for (const Blocks::Input& in : block.inputs) function.add(in.argument, Dual(in.sign) * source(in));
   const Dual value = function.value(held);
   if (std::isnan(value.value)) {
-    undefined_ = index;
+    // The first block without a value is reported, not those that take its value in.
+    const bool told = undefined_ >= 0 && undefined_at_ == now_;
+    const bool by_itself = std::none_of(block.inputs.begin(), block.inputs.end(), [&](const Blocks::Input& in) { return std::isnan(source(in).value); });
+    if (!told || by_itself) undefined_ = index;
     undefined_at_ = now_;
   }
   return value;

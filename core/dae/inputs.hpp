@@ -19,6 +19,8 @@ namespace rheonet {
 /// Velocity with which a motion by acceleration begins [m/s].
 double start_velocity(const Network& network, const Network::Motion& motion);
 
+struct TimeFunctions;
+
 /// All given functions of time: prescribed motions and applied forces, each on the smooth piece of its signal that holds now. A
 /// force or velocity given by a block depends on more than time: see `sense`.
 class Inputs {
@@ -115,9 +117,7 @@ class Inputs {
   struct Reach { double force = 0, velocity = 0; };
   Reach reach() const;
 
-  /// What positions, velocities and forces are on the present pieces: polynomials in time up to this degree, and sines of these angular
-  /// frequencies [rad/s], which ascend. Absent if some piece is neither.
-  struct TimeFunctions { int degree = 0; std::vector<double> omegas; };
+  /// The functions of time of which positions, velocities and forces are sums on the present pieces. Absent if a piece is of another kind.
   std::optional<TimeFunctions> time_functions() const;
 
   /// Largest angular frequency of the present pieces [rad/s]: 0 if nothing oscillates.

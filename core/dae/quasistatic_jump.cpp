@@ -190,7 +190,7 @@ double EventTransition::farthest(const Jump& jump) const {
 }
 
 /// True if each deflection changes by no more than a share of itself that may be an error of steps. Laws at their bounds do not count: their
-/// forces stay. Such a law leaves its bound backwards within so short a way that any way forwards is distant beside it.
+/// forces stay, however far they move.
 bool EventTransition::hardly_moves(const Jump& jump, const State& state) const {
   for (const Laws<DeflectionBatch>& laws : network_.deflection_laws) {
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {

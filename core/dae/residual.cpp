@@ -218,9 +218,8 @@ void Dae::jacobian(double t, double cj, const double* y, const double* yp, doubl
 }
 
 /// A power law other than Newton's has slope 0 at rest, where its equation has no solution to first order. A secant up to the
-/// forces now acting takes its place: with it Newton's iteration leaves rest. A law that is solved for its force has hardly any slope
-/// near rest either, and beside a law that is held at rest nothing else determines that force: below the round-off of the held force
-/// it has the secant up to that round-off.
+/// forces now acting takes its place: with it Newton's iteration leaves rest. The same holds for a law that is solved for its force beside
+/// one that is held at rest, as nothing else determines that force. Its secant goes up to the round-off of the held force.
 void Dae::stiffen_resting_laws() {
   double scale = -1;
   Inputs::Reach reach;

@@ -134,7 +134,7 @@ bool SteadyStateSolver::break_away(const std::vector<int>& direction) {
   return any;
 }
 
-/// Bounds of a slider at the velocity w. Those that depend on other quantities too are those at the present trial of these.
+/// Bounds of a slider at the velocity w. Other quantities that they depend on are taken at the present trial.
 Bounds SteadyStateSolver::bounds_at(std::size_t slider, int side, double w) const {
   if (has_contact(slider)) return network_.sliders[slider].contact->at(side).at(side);
   if (!follows_speed(slider)) return inputs_.box(slider).at(side);

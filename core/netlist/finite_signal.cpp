@@ -18,6 +18,12 @@ bool is_finite_wave(double amplitude, double frequency, double offset) {
          std::isfinite(2 * std::numbers::pi * frequency * amplitude);
 }
 
+/// Whether the rate of the rate of a sine is finite too: the acceleration of a motion that it gives.
+bool is_finite_sine(double amplitude, double frequency, double offset) {
+  const double omega = 2 * std::numbers::pi * frequency;
+  return is_finite_wave(amplitude, frequency, offset) && std::isfinite(omega * (omega * amplitude));
+}
+
 /// Whether the values, rates and periods of a shape are finite.
 struct FiniteShape {
   bool operator()(const Signal::Constant& s) const { return std::isfinite(s.value); }
@@ -25,13 +31,13 @@ struct FiniteShape {
   bool operator()(const Signal::Ramp& s) const {
     return std::isfinite(s.slope) && (std::isinf(s.duration) || std::isfinite(s.offset + s.slope * s.duration));
   }
-  bool operator()(const Signal::Sine& s) const { return is_finite_wave(s.amplitude, s.frequency, s.offset); }
+  bool operator()(const Signal::Sine& s) const { return is_finite_sine(s.amplitude, s.frequency, s.offset); }
   bool operator()(const Signal::Square& s) const { return is_finite_wave(s.amplitude, s.frequency, s.offset); }
   bool operator()(const Signal::Triangle& s) const { return is_finite_wave(s.amplitude, s.frequency, s.offset); }
   bool operator()(const Signal::Pulse& s) const { return is_finite_wave(s.height, s.frequency, s.offset); }
   bool operator()(const Signal::Chirp& s) const {
-    return is_finite_wave(s.amplitude, s.frequency, s.offset) && is_finite_wave(s.amplitude, s.end_frequency, s.offset) &&
-           std::isfinite(2 * std::numbers::pi * (s.end_frequency - s.frequency) / s.duration);
+    return is_finite_sine(s.amplitude, s.frequency, s.offset) && is_finite_sine(s.amplitude, s.end_frequency, s.offset) &&
+           std::isfinite(2 * std::numbers::pi * (s.end_frequency - s.frequency) / s.duration * s.amplitude);
   }
   bool operator()(const Signal::Noise& s) const { return std::isfinite(std::abs(s.offset) + std::abs(s.amplitude)); }
   bool operator()(const Signal::Table& s) const {

@@ -30,7 +30,7 @@ struct Sweep {
 
   double angle(double t) const { return phase + (omega + chirp * t / 2) * t; }
 
-  /// Of this function times (b - t)^power.
+  /// The integral from a to b of this function times (b - t)^power.
   double by_panels(double a, double b, double panels, int power = 0) const {
     const double half = (b - a) / panels / 2;
     double sum = 0;

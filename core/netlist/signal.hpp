@@ -54,7 +54,7 @@ struct Piece {
 
  private:
   double spin(double a, double b) const;  ///< rad/s: the largest angular frequency
-  // Of the function without regard to `integrated`.
+  // These take the function as it is, `integrated` or not.
   double function(double t) const;
   double slope_at(double t) const;
   double area(double from, double to) const;

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "core/netlist/declaration.hpp"
 #include "core/netlist/characteristic.hpp"
 #include "core/netlist/switched_function.hpp"
 

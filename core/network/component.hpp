@@ -334,7 +334,7 @@ struct Component {
   /// Of a transmission (Role::slip, rigid): velocity of its first node over that of its second, relative to its support. See
   /// transmission.hpp.
   std::function<double(std::span<const double>)> ratio = {};
-  /// Of a transmission that may have losses. Where a characteristic stands in place of a value, this gets its value at the present speed.
+  /// The losses of a transmission. It gets the value at the present speed where a characteristic stands in place of a value.
   std::function<Loss(std::span<const double>)> loss = {};
   /// For Role::slip: a parameter that depends on the velocity; absent if none does.
   std::function<std::optional<MotionExpression>(const LawValues&)> over_velocity = {};

@@ -8,12 +8,13 @@
 #include "core/base/index.hpp"
 #include "core/base/numerics.hpp"
 #include "core/netlist/switched_function.hpp"
+#include "core/network/transmission.hpp"
 
 namespace rheonet {
 
 namespace {
 
-/// What of a signal is neither a constant, a straight line nor a sine; empty if nothing is.
+/// A word for a signal that is not made of constants, straight lines and sines; else empty.
 std::string bent(const Signal& signal) {
   const auto of = [](const auto& shape) -> std::string {
     using Shape = std::decay_t<decltype(shape)>;
@@ -72,6 +73,13 @@ std::optional<NotLinear> not_linear(const Network& network) {
     if (auto found = look(block.element, block.signal)) return found;
   }
   return {};
+}
+
+std::optional<NotLinear> not_linear(const Scene& scene) {
+  if (const std::optional<Scene> converted = in_common_units(scene)) return not_linear(*converted);
+  Scene by_itself = scene;
+  by_itself.method = Scene::Method::exact;
+  return not_linear(build_network(by_itself));
 }
 
 }  // namespace rheonet

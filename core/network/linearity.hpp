@@ -15,5 +15,7 @@ struct NotLinear {
 
 /// Absent if they are: then exact_arc.hpp solves them in closed form. It follows from what the laws declare, in all their modes.
 std::optional<NotLinear> not_linear(const Network& network);
+/// The same for a scene, each spring and each slider by itself (a bundle of them is no linear law).
+std::optional<NotLinear> not_linear(const Scene& scene);
 
 }  // namespace rheonet

@@ -16,7 +16,7 @@ class Joiner {
         sets_(scene.nodes.size() + scene.elements.size()),
         shared_(scene.nodes.size(), 0),
         ignored_(scene.elements.size(), 0),
-        sensed_(scene.elements.size(), 0) {
+        of_block_(scene.elements.size(), 0) {
     std::vector<char> fed(scene.elements.size(), 0);
     for (const SceneFeed& feed : scene.feeds) fed[at(feed.element)] = 1;
     shared_[ground] = 1;
@@ -33,15 +33,15 @@ class Joiner {
         join_inputs(scene.blocks[b]);
       }
     }
-    for (const SceneFeed& feed : scene.feeds) join(feed.element, scene.blocks[at(feed.block)].element);
+    for (const SceneFeed& feed : scene.feeds) join_block(scene.blocks[at(feed.block)].element, feed.element);
   }
 
   bool shared(NodeId node) const { return shared_[at(node)] != 0; }
-  /// The element belongs to no part: it acts on a shared node alone, or it is ignored. An element whose force a block senses
-  /// belongs to the part of the block, unless it is a motion, which all parts at its node share.
+  /// The element belongs to no part: it acts on a shared node alone, or it is ignored. An element whose force a block senses,
+  /// or that a block feeds, belongs to the part of the block, unless it is a motion, which all parts at its node share.
   bool bound(std::size_t e) const {
     if (ignored_[e]) return true;
-    if (sensed_[e] && role(e) != Role::motion) return false;
+    if (of_block_[e] && role(e) != Role::motion) return false;
     const SceneElement& element = scene_.elements[e];
     return element.at && role(e) != Role::block && shared(element.a);
   }
@@ -51,9 +51,9 @@ class Joiner {
  private:
   Role role(std::size_t e) const { return components()[at(scene_.elements[e].declaration)]->role; }
   void join(int e, int other) { sets_.join(static_cast<int>(scene_.nodes.size()) + e, static_cast<int>(scene_.nodes.size()) + other); }
-  void sense(int block, int e) {
+  void join_block(int block, int e) {
     join(block, e);
-    sensed_[at(e)] = 1;
+    of_block_[at(e)] = 1;
   }
   void join_node(int e, NodeId node) {
     if (!shared(node)) sets_.join(static_cast<int>(scene_.nodes.size()) + e, node);
@@ -70,19 +70,19 @@ class Joiner {
       }
       const Record& record = scene_.sensed[at(input.index)];
       if (record.subject == Record::Subject::node) join_node(block.element, record.index);
-      if (record.subject == Record::Subject::element) sense(block.element, record.index);
+      if (record.subject == Record::Subject::element) join_block(block.element, record.index);
       if (record.subject == Record::Subject::assembly) {
         const SceneAssembly& assembly = scene_.assemblies[at(record.index)];
         join_node(block.element, assembly.a);
         join_node(block.element, assembly.b);
-        for (const SceneAssembly::Term& term : assembly.force) sense(block.element, term.element);
+        for (const SceneAssembly::Term& term : assembly.force) join_block(block.element, term.element);
       }
     }
   }
 
   const Scene& scene_;
   DisjointSets sets_;
-  std::vector<char> shared_, ignored_, sensed_;
+  std::vector<char> shared_, ignored_, of_block_;
 };
 
 }  // namespace

@@ -15,6 +15,7 @@
 #include "core/network/effects.hpp"
 #include "core/network/influence_cone.hpp"
 #include "core/network/limits.hpp"
+#include "core/network/linearity.hpp"
 #include "core/network/network.hpp"
 #include "core/network/parts.hpp"
 #include "core/network/reductions.hpp"
@@ -334,7 +335,7 @@ class Explainer {
   void find_rates(Dae& dae, Consistency& consistency, double t, const std::vector<double>& y, const std::vector<double>& yp) {
     Explanation::Cost& cost = result_.cost;
     cost.unknowns = dae.unknowns();
-    cost.no_arcs = no_arcs(scene_);
+    cost.linear = !not_linear(scene_);
     cost.entries = dae.unknowns() > 0 ? dae.pattern().entries() : 0;
     cost.sparse = dae.unknowns() > numerics::dense_integration_limit;
     const double rate = dae.unknowns() > 0 ? consistency.fastest_rate(t, scene_.stop - scene_.start, y, yp) : 0;

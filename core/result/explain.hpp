@@ -60,7 +60,7 @@ struct Explanation {
   struct Cost {
     int unknowns = 0;
     int entries = 0;            ///< nonzero entries of the Jacobian
-    std::string no_arcs = {};   ///< why the scene cannot be solved in closed form between events; "" if it can
+    bool linear = false;        ///< between events: exact arcs can solve the scene
     bool sparse = false;        ///< KLU rather than dense linear algebra
     double fastest_rate = 0;    ///< fastest rate of the network's own motion at the start [1/s]
     double fastest_drive = 0;   ///< largest angular frequency of the inputs [rad/s]

@@ -239,6 +239,8 @@ double OutputSampler::velocity(const Record& record, const Dae::View& view) cons
   return velocity(ends.a, view) - velocity(ends.b, view);
 }
 
+void OutputSampler::refuse_undefined(double t) const { dae_->inputs().blocks().refuse_undefined(t); }
+
 const std::vector<double>& OutputSampler::read(double t, const std::vector<double>& y, const std::vector<double>& yp,
                                           double rate) {
   if ((dae_->rough() || dae_->follows_time() || bent_) && rate > 0) {

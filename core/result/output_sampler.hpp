@@ -27,6 +27,8 @@ class OutputSampler {
   /// only: with `rate`, the inverse of the step, the unknowns are made consistent where that matters.
   const std::vector<double>& read(double t, const std::vector<double>& y, const std::vector<double>& yp,
                                   double rate = 0);
+  /// Throws SimulationError if a function among the blocks has no value at t or later, which is why a record has none.
+  void refuse_undefined(double t) const;
 
  private:
   const std::vector<double>& read_state(double t, const std::vector<double>& y, const std::vector<double>& yp, bool exact);

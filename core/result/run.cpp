@@ -192,6 +192,7 @@ class Recorder final : public Observer {
   void write(double t, const std::vector<double>& values) {
     for (std::size_t k = 0; k < values.size(); ++k) {
       if (std::isfinite(values[k])) continue;
+      channels_.refuse_undefined(t - slack());
       if (scene_.records[k].subject == Record::Subject::expression) {
         throw SimulationError(fmt::format("{} the expression `{}` has no finite value: is there a division by zero, or the root or logarithm of a "
                                           "negative number?", at_time(scene_, t), scene_.records[k].path));
@@ -296,6 +297,14 @@ Summary run_divided(const Scene& scene, const RunSettings& settings) {
 
 namespace {
 
+void require_linear(const Network& network) {
+  const std::optional<NotLinear> obstacle = not_linear(network);
+  if (!obstacle) return;
+  const Scene& scene = *network.scene;
+  throw SimulationError(scene.method == Scene::Method::exact ? scene.method_spot : obstacle->spot,
+                        fmt::format("`method = \"exact\"` needs laws that are linear between events, but {}; without `method` any scene is simulated", obstacle->reason));
+}
+
 /// One scene as a whole.
 Summary integrate(const Scene& scene, const RunSettings& settings, bool locate_events) {
   if (const std::optional<Scene> converted = in_common_units(scene)) return integrate(*converted, settings, locate_events);
@@ -306,10 +315,7 @@ Summary integrate(const Scene& scene, const RunSettings& settings, bool locate_e
   Recorder recorder(network, settings);
   Profile profile;
   const bool exact = settings.method.value_or(scene.method) == Scene::Method::exact;
-  if (const std::optional<NotLinear> obstacle = exact ? not_linear(network) : std::nullopt) {
-    throw SimulationError(scene.method == Scene::Method::exact ? scene.method_spot : obstacle->spot,
-                          fmt::format("`method = \"exact\"` needs laws that are linear between events, but {}; without `method` any scene is simulated", obstacle->reason));
-  }
+  if (exact) require_linear(network);
   const SimulationSettings how{.stop = scene.stop - scene.start,
                                .accuracy = settings.tolerance.value_or(scene.accuracy),
                                .order = settings.order,
@@ -366,14 +372,6 @@ Summary integrate(const Scene& scene, const RunSettings& settings, bool locate_e
 
 }  // namespace
 
-std::string no_arcs(const Scene& scene) {
-  if (const std::optional<Scene> converted = in_common_units(scene)) return no_arcs(*converted);
-  Scene exact = scene;
-  exact.method = Scene::Method::exact;
-  const std::optional<NotLinear> obstacle = not_linear(build_network(exact));
-  return obstacle ? obstacle->reason : "";
-}
-
 Summary run_whole(const Scene& scene, const RunSettings& settings) { return integrate(scene, settings, true); }
 
 Summary run_by(const SimulationMethod& method, const Scene& asked, const RunSettings& settings) {
@@ -409,6 +407,7 @@ class StartObserver final : public Observer {
 StartReport check(const Scene& scene) {
   if (const std::optional<Scene> converted = in_common_units(scene)) return check(*converted);
   const Network network = build_network(scene);
+  if (scene.method == Scene::Method::exact) require_linear(network);
   StartObserver observer(network);
   const SimulationSettings settings{
       .stop = scene.stop - scene.start, .accuracy = scene.accuracy, .interrupt = nullptr, .progress = {}, .profile = nullptr};

@@ -75,9 +75,6 @@ struct Summary {
   std::vector<std::string> notes;  ///< assumptions, and remarks on the result for the user
 };
 
-/// Why exact arcs cannot solve a scene; "" if they can.
-std::string no_arcs(const Scene& scene);
-
 /// Simulates a scene and writes its records. Throws SimulationError; the rows up to that time have then been written.
 Summary run(const Scene& scene, const RunSettings& settings = {});
 

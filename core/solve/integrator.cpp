@@ -5,16 +5,17 @@
 #include <sundials/sundials_nonlinearsolver.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
 #include "core/base/index.hpp"
 #include "core/base/numerics.hpp"
+#include "core/solve/event_finder.hpp"
 #include "core/solve/exact_arc.hpp"
 #include "core/solve/newton.hpp"
 #include "core/solve/vectors.hpp"
@@ -32,6 +33,7 @@ void require(int flag, const char* call) {
 struct Integrator::Implementation {
   Dae& dae;
   EventFunctions& event_functions;
+  EventFinder finder;
   const std::vector<double>& tolerance;
   SUNContext context = nullptr;
   std::vector<double> y, yp, work;
@@ -47,10 +49,6 @@ struct Integrator::Implementation {
   double lost = 0;
   double lost_by_step = 0;  ///< `lost` including the attempted step [s]
   double reached = 0;       ///< IDA's time at the end of the last step [s]
-  std::vector<int> fired;
-  std::vector<double> left, between, right;  // event functions at both ends of a step and within
-  std::vector<double> band;                  // dead band of each that fell in the last step: see EventFunctions
-  bool locate = true;
   Statistics history;  // before the last restart
   bool started = false;
   long rejected = 0;    // error tests failed since the restart
@@ -62,7 +60,12 @@ struct Integrator::Implementation {
 
   Implementation(Dae& d, EventFunctions& e, const std::vector<double>& tol, const std::vector<double>& least,
                  const Options& options)
-      : dae(d), event_functions(e), tolerance(tol), y(at(d.size()), 0), yp(y), work(y), newton(d, d.size() > options.dense, tol, least) {
+      : dae(d), event_functions(e),
+        finder(e, options.locate_events, [this](double t, std::vector<double>& functions) {
+          if (t != time) go_to(t);
+          evaluate(functions);
+        }),
+        tolerance(tol), y(at(d.size()), 0), yp(y), work(y), newton(d, d.size() > options.dense, tol, least) {
     const sunindextype n = dae.size();
     require(SUNContext_Create(nullptr, &context), "SUNContext_Create");
     ny = N_VMake_Serial(n, y.data(), context);
@@ -92,9 +95,6 @@ struct Integrator::Implementation {
     solver->ops->setsysfn = [](SUNNonlinearSolver, SUNNonlinSolSysFn) { return SUN_NLS_SUCCESS; };
     solver->ops->solve = solve;
     require(IDASetNonlinearSolver(ida, solver), "IDASetNonlinearSolver");
-    fired.assign(at(event_functions.count()), 0);
-    for (std::vector<double>* functions : {&left, &between, &right, &band}) functions->assign(fired.size(), 0);
-    locate = options.locate_events;
     if (options.exact) arc = std::make_unique<ExactArc>(dae, tol);
   }
 
@@ -187,159 +187,23 @@ struct Integrator::Implementation {
     require(IDAGetDky(ida, t - lost_by_step, 1, np), "IDAGetDky");
   }
 
-  /// True if the last step has passed an event. If events are located, the step is shortened to the first of them.
+  /// True if the last step has passed an event; it then ends there.
   bool meets_event() {
-    if (fired.empty()) {
+    if (finder.none()) {
       refine(time);
       return false;
     }
-    evaluate(right);
-    return locate_event(previous);
-  }
-
-  /// The same where `left` holds the functions at `begin`, and `right` those at the end.
-  bool locate_event(double begin) {
-    if (locate && falls(right)) go_to_event(begin);
-    const auto has_fired = [&](double before, double now) { return now <= 0 && (before > 0 || !locate) ? 1 : 0; };
-    std::transform(left.begin(), left.end(), right.begin(), fired.begin(), has_fired);
-    left.swap(right);
-    return std::find(fired.begin(), fired.end(), 1) != fired.end();
+    const std::optional<double> event = finder.in_step(previous, time);
+    if (event && *event != time) go_to(*event);
+    return event.has_value();
   }
 
   Outcome step_along_arc() {
     ++arc_steps;
     const double end = arc->step(time, longest_step);
-    if (fired.empty()) {
-      go_to(end);
-    } else if (passes_event(end)) {
-      return Outcome::event;
-    }
-    return end == length() ? Outcome::stop : Outcome::step;
-  }
-
-  /// The event functions at a time within the last step.
-  std::vector<double> functions_at(double t) {
-    std::vector<double> functions(fired.size());
-    go_to(t);
-    evaluate(functions);
-    return functions;
-  }
-
-  /// True if a step of an exact arc passes an event. Such steps are long: a function may fall through 0 and come back. Between equal
-  /// parts it is a polynomial of degree 4 as far as one can see; where that one comes near 0, the function is looked at.
-  bool passes_event(double end) {
-    constexpr int parts = numerics::arc_parts, finer = parts;
-    std::vector<double> times;
-    struct Dip { std::size_t function; double time; };
-    std::vector<Dip> dips;
-    std::vector<std::vector<double>> functions{left};
-    for (int k = 0; k <= parts; ++k) times.push_back(k == parts ? end : previous + (end - previous) * k / parts);
-    for (int k = 1; k <= parts; ++k) functions.push_back(functions_at(times[at(k)]));
-    for (std::size_t f = 0; f < fired.size(); ++f) {
-      std::array<double, parts + 1> g;
-      for (std::size_t k = 0; k < g.size(); ++k) g[k] = functions[k][f];
-      const auto [least, most] = std::minmax_element(g.begin(), g.end());
-      if (!(*least > 0)) continue;
-      double lowest_value = *least, lowest_place = static_cast<double>(least - g.begin());
-      for (int k = 0; k <= parts * finer; ++k) {
-        const double place = static_cast<double>(k) / finer, value = through(g, place);
-        if (value < lowest_value) lowest_value = value, lowest_place = place;
-      }
-      if (lowest_value <= numerics::arc_dip * (*most - *least)) dips.push_back({f, previous + (end - previous) * lowest_place / parts});
-    }
-    for (const Dip& dip : dips) {
-      const double t = lowest_near(dip.function, dip.time, end, (end - previous) / (parts * finer));
-      const auto behind = std::lower_bound(times.begin(), times.end(), t);
-      if (*behind == t) continue;
-      functions.insert(functions.begin() + (behind - times.begin()), functions_at(t));
-      times.insert(behind, t);
-    }
-    for (std::size_t k = 1; k < times.size(); ++k) {
-      left = functions[k - 1];
-      right = functions[k];
-      if (!falls(right)) continue;
-      go_to(times[k]);
-      locate_event(times[k - 1]);
-      return true;
-    }
-    std::fill(fired.begin(), fired.end(), 0);
-    left = functions.back();
-    go_to(end);
-    return false;
-  }
-
-  /// Where an event function is lowest near t within the last step, by parabolas through three of its values; or a time at which it is
-  /// not positive.
-  double lowest_near(std::size_t function, double t, double end, double apart) {
-    const auto value = [&](double then) { return functions_at(then)[function]; };
-    for (int n = 0; n < numerics::missed_event_refinements; ++n, apart /= 16) {
-      t = std::clamp(t, previous + apart, end - apart);
-      const double before = value(t - apart), here = value(t), after = value(t + apart), bend = before - 2 * here + after;
-      if (here <= 0 || !(bend > 0)) break;
-      t += std::clamp((before - after) / (2 * bend), -1.0, 1.0) * apart;
-    }
-    return t;
-  }
-
-  /// Lagrange's polynomial through values at 0, 1, 2, ...
-  template <std::size_t count>
-  static double through(const std::array<double, count>& values, double place) {
-    double sum = 0;
-    for (std::size_t i = 0; i < count; ++i) {
-      double product = values[i];
-      for (std::size_t j = 0; j < count; ++j) {
-        if (j != i) product *= (place - static_cast<double>(j)) / (static_cast<double>(i) - static_cast<double>(j));
-      }
-      sum += product;
-    }
-    return sum;
-  }
-
-  /// True if some function has fallen through 0 since `left`.
-  bool falls(const std::vector<double>& now) const {
-    for (std::size_t k = 0; k < left.size(); ++k) {
-      if (left[k] > 0 && now[k] <= 0) return true;
-    }
-    return false;
-  }
-
-  /// Shortens the step to just behind the first event, by the Illinois variant of the rule of false position (Dowell and
-  /// Jarratt, BIT 11 (1971) 168), applied to the function that falls first.
-  void go_to_event(double begin) {
-    double end = time;
-    const double near = numerics::event_time_ulps * std::numeric_limits<double>::epsilon() * (std::abs(end) + (end - begin));
-    for (std::size_t k = 0; k < left.size(); ++k) {
-      const double b = left[k] > 0 && right[k] <= 0 ? event_functions.band(static_cast<int>(k)) : 0;
-      band[k] = left[k] > b ? b : 0;
-    }
-    const auto take_bands = [&](std::vector<double>& functions) {
-      for (std::size_t k = 0; k < functions.size(); ++k) functions[k] -= band[k];
-    };
-    take_bands(left);
-    take_bands(right);
-    double weight = 1;    // of the functions at the beginning
-    int last_moved = 0;   // 1: the end moved
-    for (int round = 0; end - begin > near; ++round) {
-      double share = 0;  // of the interval, from its end to the first zero
-      for (std::size_t k = 0; k < left.size(); ++k) {
-        if (left[k] > 0 && right[k] <= 0) share = std::max(share, right[k] / (right[k] - weight * left[k]));
-      }
-      const double t = round < numerics::false_position_iterations ? end - share * (end - begin) : begin + (end - begin) / 2;
-      go_to(std::clamp(t, begin + near / 2, end - near / 2));
-      evaluate(between);
-      take_bands(between);
-      const int moves = falls(between) ? 1 : -1;
-      weight = moves != last_moved ? 1 : moves > 0 ? weight / 2 : 2 * weight;
-      last_moved = moves;
-      if (moves > 0) {
-        end = time;
-        right.swap(between);
-      } else {
-        begin = time;
-        left.swap(between);
-      }
-    }
-    if (time != end) go_to(end);
+    const std::optional<double> event = finder.none() ? std::nullopt : finder.in_long_step(previous, end);
+    go_to(event.value_or(end));
+    return event ? Outcome::event : end == length() ? Outcome::stop : Outcome::step;
   }
 
   Failures failures() const {
@@ -411,7 +275,7 @@ void Integrator::restart(TimePoint t, const std::vector<double>& y, const std::v
     require(IDASetStopTime(s.ida, s.length()), "IDASetStopTime");
     s.newton.restart();
   }
-  if (!s.fired.empty()) s.evaluate(s.left);
+  if (!s.finder.none()) s.evaluate(s.finder.at_begin());
   s.started = true;
   s.rejected = 0;
 }
@@ -420,7 +284,7 @@ void Integrator::go_on(TimePoint stop) {
   Implementation& s = *impl_;
   s.stop = stop;
   s.keep_time();
-  if (!s.fired.empty()) s.evaluate(s.left);
+  if (!s.finder.none()) s.evaluate(s.finder.at_begin());
 }
 
 Integrator::Outcome Integrator::step() {
@@ -465,8 +329,7 @@ void Integrator::limit_step(double longest) {
 void Integrator::cut(double t, int which) {
   Implementation& s = *impl_;
   s.go_to(s.since_begin(t));
-  std::fill(s.fired.begin(), s.fired.end(), 0);
-  s.fired[at(which)] = 1;
+  s.finder.take(which);
 }
 
 bool Integrator::exact() const { return impl_->on_arc; }
@@ -474,7 +337,7 @@ double Integrator::time() const { return impl_->point(impl_->time).t; }
 double Integrator::previous_time() const { return impl_->point(impl_->previous).t; }
 const std::vector<double>& Integrator::y() const { return impl_->y; }
 const std::vector<double>& Integrator::yp() const { return impl_->yp; }
-const std::vector<int>& Integrator::events() const { return impl_->fired; }
+const std::vector<int>& Integrator::events() const { return impl_->finder.fired(); }
 
 void Integrator::interpolate(double t, int derivative, std::vector<double>& out) const {
   if (impl_->on_arc) {

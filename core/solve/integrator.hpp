@@ -6,20 +6,9 @@
 
 #include "core/base/numerics.hpp"
 #include "core/dae/dae.hpp"
+#include "core/solve/event_finder.hpp"
 
 namespace rheonet {
-
-/// Event functions (guards) along a trajectory: an event is a fall of one of them from positive to 0 or below.
-class EventFunctions {
- public:
-  virtual ~EventFunctions() = default;
-  virtual int count() const = 0;
-  virtual void evaluate(double t, const double* y, const double* yp, double* g) = 0;
-  /// Dead band included in function `k`, which keeps round-off from firing it. If the function exceeds the band at the
-  /// beginning of a step, its event is located where it has fallen to the band. Otherwise every event would be late, and over
-  /// a long run the delays add up.
-  virtual double band(int /*k*/) const { return 0; }
-};
 
 /// Crosses the time between events, one step at a time; output never changes the steps. By SUNDIALS IDA: variable-order, variable-step BDF
 /// in the form of Hindmarsh et al., ACM TOMS 31 (2005) 363; or, where that is asked for and possible, by exact arcs.

@@ -360,7 +360,7 @@ class Run {
     leave(t);
     Fired fired = take_events(*system_, t, y_, yp_);
     fired_ = std::move(fired.elements);
-    fired.sudden.settles = settling_contacts(*system_, tolerances_, {t, settings_.accuracy, settings_.stop}, y_, yp_);
+    fired.sudden.settles = settling_contacts(*system_, tolerances_, {t, accuracy(), settings_.stop}, y_, yp_);
     const bool jumps = inputs_.blocks().fire(fired.limits);
     cross(t, jumps, fired.sudden);
   }
@@ -425,7 +425,8 @@ class Run {
     system_->integrator.limit_step(longest_step(inputs_, events.sticks(), events.slips_along(), settings_.accuracy));
   }
 
-  double tolerance(double share) const { return std::max(share * (on_arc_ ? numerics::arc_accuracy : settings_.accuracy), numerics::least_step_tolerance); }
+  double accuracy() const { return on_arc_ ? numerics::arc_accuracy : settings_.accuracy; }
+  double tolerance(double share) const { return std::max(share * accuracy(), numerics::least_step_tolerance); }
 
   /// Sets the tolerances of the next step. Returns the one relative to the scale of an unknown.
   double allow_errors() {

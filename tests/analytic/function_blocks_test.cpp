@@ -217,6 +217,15 @@ TEST_CASE("functions that cannot be evaluated, or switch for ever, end the run w
                                                   "a = { velocity = \"1.1 m/s\" }", 9));
   CAPTURE(root);
   CHECK(mentions_all(root, {"`-F*(1 + sqrt(u1/v))`", "`r`", "no finite value"}));
+  // It is named, and not what takes it in.
+  const std::string behind = refusal(function_scene("F = \"1 N\"",
+                                                    "m = { type = \"mass\", at = \"a\", mass = \"1 kg\" }\n"
+                                                    "r = { type = \"function\", in = \"a.position\", out = \"sqrt(u1)\" }\n"
+                                                    "s = { type = \"function\", in = \"r\", out = \"2*u1\" }\n"
+                                                    "f = { type = \"force\", at = \"a\", force = \"-F\" }",
+                                                    "a = { position = \"1 m\" }", 9));
+  CHECK_MESSAGE(mentions_all(behind, {"`sqrt(u1)`", "`r`", "no finite value"}), behind);
+  CHECK(behind.find("nan") == std::string::npos);
   // Whether the velocity comes to 0 exactly or to round-off.
   for (const std::string values : {"F = \"2 N\"\nv = \"1.1 m/s\"", "F = \"3 N\"\nv = \"1 m/s\""}) {
     const std::string relay = refusal(function_scene(values,

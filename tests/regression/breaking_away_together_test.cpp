@@ -39,65 +39,35 @@ record = ["w.velocity"]
 // Each ended in "switches over and over" or "cannot be balanced": bounds of 0 that round-off seemed to exceed, trials of the forces of gears that
 // ended with fewer digits than the dead bands of guards, and brakes that a gear holds at rest at their bound, but which counted as slipping.
 TEST_CASE("breaking away together: scenes that round-off decided") {
-  const std::vector<std::string> scenes = {
-R"~(Ja = { type = "inertia", at = "a", inertia = 0.412 }
-Jb = { type = "inertia", at = "b", inertia = 0.269 }
-Jc = { type = "inertia", at = "c", inertia = 0.208 }
-g = { type = "gear", between = ["a", "b"], ratio = -3.698, efficiency = [0.749, 0.611], bearing = 0.000 }
-h = { type = "gear", between = ["b", "c"], ratio = 2.154, efficiency = [0.878, 0.642] }
-T = { type = "torque", at = "a", torque = { sine = 4.395, frequency = 0.705 } }
-sa = { type = "slider", between = ["a", "ground"], coulomb = "T0*(1 + 1.382*(w/w0)^2/(1 + (w/w0)^2))", peak = 1.00 }
-sb = { type = "slider", between = ["b", "ground"], coulomb = 0.849, breakaway = 1.033, stribeck = 1.740 }
-dc = { type = "dashpot", between = ["c", "ground"], damping = 0.510 }
-)~",
-R"~(Ja = { type = "inertia", at = "a", inertia = 0.979 }
-Jb = { type = "inertia", at = "b", inertia = 0.102 }
-Jc = { type = "inertia", at = "c", inertia = 0.739 }
-g = { type = "gear", between = ["a", "b"], ratio = -2.194, efficiency = [0.683, 0.906], bearing = 0.032 }
-h = { type = "gear", between = ["b", "c"], ratio = 2.913, efficiency = [0.698, 0.401] }
-T = { type = "torque", at = "a", torque = { sine = 7.897, frequency = 1.482 } }
-sa = { type = "slider", between = ["a", "ground"], coulomb = 0.419, breakaway = 1.231, stribeck = 0.585 }
-dc = { type = "dashpot", between = ["b", "ground"], damping = 0.890 }
-)~",
-R"~(Ja = { type = "inertia", at = "a", inertia = 0.342 }
-Jb = { type = "inertia", at = "b", inertia = 0.599 }
-Jc = { type = "inertia", at = "c", inertia = 0.302 }
-g = { type = "gear", between = ["a", "b"], ratio = -3.328, efficiency = [0.898, 0.936], bearing = 0.000 }
-h = { type = "gear", between = ["b", "c"], ratio = 0.885, efficiency = [0.521, 0.751] }
-T = { type = "torque", at = "a", torque = { sine = 11.095, frequency = 1.414 } }
-sa = { type = "slider", between = ["a", "ground"], coulomb = [[0, 1.049], [1, 0.857], [10, 1.596]] }
-dc = { type = "dashpot", between = ["c", "ground"], damping = 1.157 }
-)~",
-R"~(Ja = { type = "inertia", at = "a", inertia = 0.502 }
-Jb = { type = "inertia", at = "b", inertia = 0.649 }
-Jc = { type = "inertia", at = "c", inertia = 0.434 }
-g = { type = "gear", between = ["a", "b"], ratio = 3.720, efficiency = [0.592, 0.548], bearing = 0.000 }
-h = { type = "gear", between = ["b", "c"], ratio = 0.700, efficiency = [0.688, 0.509] }
-T = { type = "torque", at = "a", torque = { sine = 3.221, frequency = 1.388 } }
-sa = { type = "slider", between = ["a", "ground"], coulomb = 0.374, breakaway = 1.046, stribeck = 1.198 }
-dc = { type = "dashpot", between = ["a", "ground"], damping = 1.125 }
-)~",
-R"~(Ja = { type = "inertia", at = "a", inertia = 0.079 }
-Jb = { type = "inertia", at = "b", inertia = 0.874 }
-Jc = { type = "inertia", at = "c", inertia = 0.736 }
-g = { type = "gear", between = ["a", "b"], ratio = -0.563, efficiency = [0.607, 0.885], bearing = 0.171 }
-h = { type = "gear", between = ["b", "c"], ratio = 1.996, efficiency = [0.723, 0.555] }
-T = { type = "torque", at = "a", torque = { sine = 6.898, frequency = 1.366 } }
-sb = { type = "slider", between = ["b", "ground"], coulomb = "T0*(1 + 1.705*(w/w0)^2/(1 + (w/w0)^2))", peak = 1.30 }
-sc = { type = "slider", between = ["c", "ground"], coulomb = 0.978, breakaway = 1.761, stribeck = 1.232 }
-dc = { type = "dashpot", between = ["c", "ground"], damping = 1.038 }
-)~",
-R"~(Ja = { type = "inertia", at = "a", inertia = 0.833 }
-Jb = { type = "inertia", at = "b", inertia = 0.900 }
-Jc = { type = "inertia", at = "c", inertia = 0.228 }
-g = { type = "gear", between = ["a", "b"], ratio = -1.564, efficiency = [0.565, 0.631], bearing = 0.168 }
-h = { type = "planetary", between = ["b", "c", "ground"], ratio = 1.203 }
-T = { type = "torque", at = "a", torque = { sine = 11.120, frequency = 2.540 } }
-sa = { type = "slider", between = ["a", "ground"], coulomb = 0.643, breakaway = 1.948, stribeck = 1.376 }
-sc = { type = "slider", between = ["c", "ground"], coulomb = [[0, 0.713], [1, 0.309], [10, 1.425]] }
-dc = { type = "dashpot", between = ["a", "ground"], damping = 1.180 }
-)~"};
-  for (const std::string& elements : scenes) {
+  struct Held { std::string type, at, values; };  ///< between this shaft and ground
+  struct Shafts {
+    double a, b, c;         ///< inertias [kg m^2]
+    std::string first, second;  ///< the gear from a to b, and what joins b to c
+    double torque, frequency;   ///< on a [N m], [Hz]
+    std::vector<Held> held;
+  };
+  const std::vector<Shafts> scenes{
+      {0.412, 0.269, 0.208, "ratio = -3.698, efficiency = [0.749, 0.611], bearing = 0.000", "type = \"gear\", between = [\"b\", \"c\"], ratio = 2.154, efficiency = [0.878, 0.642]", 4.395, 0.705,
+       {{"slider", "a", "coulomb = \"T0*(1 + 1.382*(w/w0)^2/(1 + (w/w0)^2))\", peak = 1.00"}, {"slider", "b", "coulomb = 0.849, breakaway = 1.033, stribeck = 1.740"}, {"dashpot", "c", "damping = 0.510"}}},
+      {0.979, 0.102, 0.739, "ratio = -2.194, efficiency = [0.683, 0.906], bearing = 0.032", "type = \"gear\", between = [\"b\", \"c\"], ratio = 2.913, efficiency = [0.698, 0.401]", 7.897, 1.482,
+       {{"slider", "a", "coulomb = 0.419, breakaway = 1.231, stribeck = 0.585"}, {"dashpot", "b", "damping = 0.890"}}},
+      {0.342, 0.599, 0.302, "ratio = -3.328, efficiency = [0.898, 0.936], bearing = 0.000", "type = \"gear\", between = [\"b\", \"c\"], ratio = 0.885, efficiency = [0.521, 0.751]", 11.095, 1.414,
+       {{"slider", "a", "coulomb = [[0, 1.049], [1, 0.857], [10, 1.596]]"}, {"dashpot", "c", "damping = 1.157"}}},
+      {0.502, 0.649, 0.434, "ratio = 3.720, efficiency = [0.592, 0.548], bearing = 0.000", "type = \"gear\", between = [\"b\", \"c\"], ratio = 0.700, efficiency = [0.688, 0.509]", 3.221, 1.388,
+       {{"slider", "a", "coulomb = 0.374, breakaway = 1.046, stribeck = 1.198"}, {"dashpot", "a", "damping = 1.125"}}},
+      {0.079, 0.874, 0.736, "ratio = -0.563, efficiency = [0.607, 0.885], bearing = 0.171", "type = \"gear\", between = [\"b\", \"c\"], ratio = 1.996, efficiency = [0.723, 0.555]", 6.898, 1.366,
+       {{"slider", "b", "coulomb = \"T0*(1 + 1.705*(w/w0)^2/(1 + (w/w0)^2))\", peak = 1.30"}, {"slider", "c", "coulomb = 0.978, breakaway = 1.761, stribeck = 1.232"}, {"dashpot", "c", "damping = 1.038"}}},
+      {0.833, 0.900, 0.228, "ratio = -1.564, efficiency = [0.565, 0.631], bearing = 0.168", "type = \"planetary\", between = [\"b\", \"c\", \"ground\"], ratio = 1.203", 11.120, 2.540,
+       {{"slider", "a", "coulomb = 0.643, breakaway = 1.948, stribeck = 1.376"}, {"slider", "c", "coulomb = [[0, 0.713], [1, 0.309], [10, 1.425]]"}, {"dashpot", "a", "damping = 1.180"}}}};
+  for (const Shafts& shafts : scenes) {
+    std::string elements = fmt::format(R"(Ja = {{ type = "inertia", at = "a", inertia = {} }}
+Jb = {{ type = "inertia", at = "b", inertia = {} }}
+Jc = {{ type = "inertia", at = "c", inertia = {} }}
+g = {{ type = "gear", between = ["a", "b"], {} }}
+h = {{ {} }}
+T = {{ type = "torque", at = "a", torque = {{ sine = {}, frequency = {} }} }}
+)", shafts.a, shafts.b, shafts.c, shafts.first, shafts.second, shafts.torque, shafts.frequency);
+    for (const Held& held : shafts.held) elements += fmt::format("{0}{1} = {{ type = \"{0}\", between = [\"{1}\", \"ground\"], {2} }}\n", held.type, held.at, held.values);
     CAPTURE(elements);
     const auto run = [&](double accuracy) {
       return simulate(fmt::format("domain = \"rotation\"\n[parameters]\nT0 = \"1 N*m\"\nw0 = \"1 rad/s\"\n[elements]\n{}[simulate]\nstop = 2\naccuracy = {}\noutput = {{ points = 9 }}\n"

@@ -237,3 +237,27 @@ record = ["block.force", "block.3.force", "block.17.displacement", "block.39.tip
   CHECK_LE(terms, 2 * count);
   check_same(scene, whole(scene));
 }
+
+// The force is of no part, as ground does not move, but its block is: they stay together in whatever scene is cut out.
+TEST_CASE("a force on ground by a block of one part among several") {
+  const std::string text = R"([elements]
+aim = { type = "generator", signal = { sine = 1.7, frequency = 0.6 } }
+push = { type = "force", at = "one", force = { block = "aim" } }
+one = { type = "mass", at = "one", mass = 0.7 }
+on_ground = { type = "force", at = "ground", force = { block = "aim" } }
+two = { type = "mass", at = "two", mass = 1.3 }
+k = { type = "spring", between = ["two", "ground"], stiffness = 20 }
+three = { type = "mass", at = "three", mass = 0.4 }
+c = { type = "dashpot", between = ["three", "ground"], damping = 2 }
+[nodes]
+two = { position = 0.2 }
+three = { velocity = 0.3 }
+[simulate]
+stop = 2
+output = { points = 21 }
+)";
+  const Scene scene = scene_of(text);
+  check_same(scene, whole(scene));
+  const RunTable rows = simulate(scene);
+  for (std::size_t k = 0; k < rows.time().size(); ++k) CHECK_EQ(rows["on_ground.force"][k], doctest::Approx(1.7 * std::sin(1.2 * std::numbers::pi * rows.time()[k])));
+}

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "core/network/error.hpp"
 #include "tests/support/simulate.hpp"
 
 namespace rheonet::test {
@@ -187,6 +188,7 @@ TEST_CASE("what is not linear is left to IDA, or named") {
     const std::string message = refusal(toml);
     CHECK_MESSAGE(message.find("`method = \"exact\"` needs laws that are linear between events, but " + reason) != std::string::npos, message);
     Scene scene = scene_of(toml);
+    CHECK_THROWS_AS(check(scene), SimulationError);
     scene.method = Scene::Method::ida;
     Summary summary;
     simulate(scene, &summary);

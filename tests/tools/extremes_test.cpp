@@ -79,12 +79,15 @@ TEST_CASE("signals whose values, rates or periods overflow are refused where the
   CHECK(told("{ sine = 1e308, frequency = 1 }"));
   CHECK(told("{ sine = 1, frequency = 5e-324 }"));
   CHECK(told("{ triangle = 1e308, frequency = 0.3 }"));
+  // The acceleration alone: at rest it was "which motion `d` moves at -nan".
+  CHECK(told("{ sine = 1e307, frequency = 1 }"));
+  CHECK(told("{ chirp = 3e306, frequency = 0.5, end_frequency = 4, duration = 2.8e-4 }"));
   CHECK(told("{ chirp = 1, frequency = 1, end_frequency = 1e308, duration = 1 }"));
   CHECK(told("{ step = 1e308, offset = 1e308 }"));
   CHECK(told("{ table = [[0, 0], [5e-324, 1]] }"));
   CHECK(told("{ table = [[0, -1e308], [1, 1e308]] }"));
   run_any(driven("{ sine = 1e300, frequency = 1e6 }", "1"));
-  run_any("[elements]\nd = { type = \"motion\", at = \"a\", position = { sine = 1e307, frequency = 1 } }\n" + dashpot + "[simulate]\nstop = 1e-160\n");
+  run_any("[elements]\nd = { type = \"motion\", at = \"a\", position = { sine = 1e306, frequency = 1 } }\n" + dashpot + "[simulate]\nstop = 1e-160\n");
 }
 
 // The search for the next reversal went on by the rounding of time.

@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/network/linearity.hpp"
 #include "core/result/work_precision.hpp"
 #include "tools/rheonet/asked_variants.hpp"
 #include "tools/rheonet/commands.hpp"
@@ -59,7 +60,7 @@ ExitStatus price_scene(const Arguments& arguments) {
   PriceList list;
   const bool simulated = do_watched(read.sources, [&](const auto& progress) {
     std::vector<SimulationMethod> all = arguments.variants ? methods(scene) : std::vector<SimulationMethod>{{.name = "order up to 5"}};
-    if (no_arcs(scene).empty()) all.push_back({.name = "exact arcs", .method = Scene::Method::exact});
+    if (!not_linear(scene)) all.push_back({.name = "exact arcs", .method = Scene::Method::exact});
     if (arguments.certified) all.push_back({.name = "certified", .certified = true});
     std::move(asked->begin(), asked->end(), std::back_inserter(all));
     list = price_list(scene, {.tolerances = tolerances_of(arguments, scene),

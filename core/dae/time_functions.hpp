@@ -1,0 +1,28 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace rheonet {
+
+/// The functions of time of which inputs are sums: 1, tau, tau^2/2 up to a degree, then the sine and the cosine of each angular frequency.
+/// Coefficients are columns of a matrix, in this order.
+struct TimeFunctions {
+  int degree = 0;
+  std::vector<double> omegas;  ///< ascending [rad/s]
+
+  Eigen::Index count() const { return degree + 1 + 2 * static_cast<Eigen::Index>(omegas.size()); }
+  double fastest() const { return omegas.empty() ? 0 : omegas.back(); }  ///< rad/s
+  bool operator==(const TimeFunctions&) const = default;
+
+  Eigen::VectorXd at(double tau) const;
+  /// Coefficients for time counted from `by` on.
+  Eigen::MatrixXd shifted(const Eigen::MatrixXd& coefficients, double by) const;
+  /// Coefficients of the derivative.
+  Eigen::MatrixXd derivative(const Eigen::MatrixXd& coefficients) const;
+  /// Coefficients of what has these values (rows) at these times, by least squares. The first time is 0; differences from the values there
+  /// are small beside those, and keep their digits. `misfit` is the largest difference of each column.
+  Eigen::MatrixXd fit(const std::vector<double>& times, const Eigen::MatrixXd& values, Eigen::VectorXd& misfit) const;
+};
+
+}  // namespace rheonet

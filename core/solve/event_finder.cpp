@@ -1,0 +1,160 @@
+#include "core/solve/event_finder.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "core/base/index.hpp"
+#include "core/base/numerics.hpp"
+
+namespace rheonet {
+
+namespace {
+
+/// Lagrange's polynomial through values at 0, 1, 2, ...
+template <std::size_t count>
+double through(const std::array<double, count>& values, double place) {
+  double sum = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    double product = values[i];
+    for (std::size_t j = 0; j < count; ++j) {
+      if (j != i) product *= (place - static_cast<double>(j)) / (static_cast<double>(i) - static_cast<double>(j));
+    }
+    sum += product;
+  }
+  return sum;
+}
+
+}  // namespace
+
+EventFinder::EventFinder(const EventFunctions& functions, bool locate, Look look)
+    : functions_(functions), locate_(locate), look_(std::move(look)), fired_(at(functions.count()), 0), left_(fired_.size(), 0), between_(left_), right_(left_), band_(left_) {}
+
+void EventFinder::take(int which) {
+  std::fill(fired_.begin(), fired_.end(), 0);
+  fired_[at(which)] = 1;
+}
+
+std::optional<double> EventFinder::in_step(double begin, double end) {
+  look_(end, right_);
+  return fire(begin, end);
+}
+
+/// Between equal parts of the step a function is a polynomial of degree 4 as far as one can see; where that comes near 0, the function
+/// itself is looked at.
+std::optional<double> EventFinder::in_long_step(double begin, double end) {
+  constexpr int parts = numerics::arc_parts;
+  std::vector<Seen> seen{{begin, left_}};
+  for (int k = 1; k <= parts; ++k) seen.push_back(look_at(k == parts ? end : begin + (end - begin) * k / parts));
+  look_at_dips(seen);
+  for (std::size_t k = 1; k < seen.size(); ++k) {
+    left_ = seen[k - 1].functions;
+    right_ = seen[k].functions;
+    if (const std::optional<double> event = fire(seen[k - 1].time, seen[k].time)) return event;
+  }
+  return {};
+}
+
+EventFinder::Seen EventFinder::look_at(double t) const {
+  Seen there{t, std::vector<double>(fired_.size())};
+  look_(t, there.functions);
+  return there;
+}
+
+void EventFinder::look_at_dips(std::vector<Seen>& seen) const {
+  constexpr int parts = numerics::arc_parts, finer = parts;
+  const double begin = seen.front().time, end = seen.back().time;
+  std::vector<double> dips;
+  for (std::size_t f = 0; f < fired_.size(); ++f) {
+    std::array<double, parts + 1> g;
+    for (std::size_t k = 0; k < g.size(); ++k) g[k] = seen[k].functions[f];
+    const auto [least, most] = std::minmax_element(g.begin(), g.end());
+    if (!(*least > 0)) continue;
+    double lowest = *least, place = static_cast<double>(least - g.begin());
+    for (int k = 0; k <= parts * finer; ++k) {
+      const double there = static_cast<double>(k) / finer, value = through(g, there);
+      if (value < lowest) lowest = value, place = there;
+    }
+    if (lowest > numerics::arc_dip * (*most - *least)) continue;
+    const std::optional<double> t = minimum_near(f, begin + (end - begin) * place / parts, begin, end, (end - begin) / (parts * finer));
+    if (t) dips.push_back(*t);
+  }
+  for (const double t : dips) {
+    const auto behind = std::lower_bound(seen.begin(), seen.end(), t, [](const Seen& one, double then) { return one.time < then; });
+    if (behind->time != t) seen.insert(behind, look_at(t));
+  }
+}
+
+/// Where a function has a minimum near t, by parabolas through three of its values, or a time at which it is not positive. Absent if it
+/// only rises from the beginning, or falls to the end.
+std::optional<double> EventFinder::minimum_near(std::size_t function, double t, double begin, double end, double apart) const {
+  const auto value = [&](double then) { return look_at(then).functions[function]; };
+  bool minimum = false;
+  for (int n = 0; n < numerics::missed_event_refinements; ++n, apart /= numerics::arc_parts * numerics::arc_parts) {
+    t = std::clamp(t, begin + apart, end - apart);
+    const double before = value(t - apart), here = value(t), after = value(t + apart), bend = before - 2 * here + after;
+    minimum = here <= 0 || (before >= here && after >= here);
+    if (here <= 0 || !(bend > 0)) break;
+    t += std::clamp((before - after) / (2 * bend), -1.0, 1.0) * apart;
+  }
+  return minimum ? std::optional(t) : std::nullopt;
+}
+
+/// True if some function has fallen through 0 since `left_`.
+bool EventFinder::falls(const std::vector<double>& now) const {
+  for (std::size_t k = 0; k < left_.size(); ++k) {
+    if (left_[k] > 0 && now[k] <= 0) return true;
+  }
+  return false;
+}
+
+/// With the functions at both times in `left_` and `right_`.
+std::optional<double> EventFinder::fire(double begin, double end) {
+  if (locate_ && falls(right_)) end = locate(begin, end);
+  const auto has_fired = [&](double before, double now) { return now <= 0 && (before > 0 || !locate_) ? 1 : 0; };
+  std::transform(left_.begin(), left_.end(), right_.begin(), fired_.begin(), has_fired);
+  left_.swap(right_);
+  return std::find(fired_.begin(), fired_.end(), 1) != fired_.end() ? std::optional(end) : std::nullopt;
+}
+
+/// Finds the time just behind the first event, by the Illinois variant of the rule of false position (Dowell and Jarratt, BIT 11 (1971)
+/// 168), applied to the function that falls first.
+double EventFinder::locate(double begin, double end) {
+  const double near = numerics::event_time_ulps * std::numeric_limits<double>::epsilon() * (std::abs(end) + (end - begin));
+  for (std::size_t k = 0; k < left_.size(); ++k) {
+    const double b = left_[k] > 0 && right_[k] <= 0 ? functions_.band(static_cast<int>(k)) : 0;
+    band_[k] = left_[k] > b ? b : 0;
+  }
+  const auto take_bands = [&](std::vector<double>& functions) {
+    for (std::size_t k = 0; k < functions.size(); ++k) functions[k] -= band_[k];
+  };
+  take_bands(left_);
+  take_bands(right_);
+  double weight = 1;    // of the functions at the beginning
+  int last_moved = 0;   // 1: the end moved
+  for (int round = 0; end - begin > near; ++round) {
+    double share = 0;  // of the interval, from its end to the first zero
+    for (std::size_t k = 0; k < left_.size(); ++k) {
+      if (left_[k] > 0 && right_[k] <= 0) share = std::max(share, right_[k] / (right_[k] - weight * left_[k]));
+    }
+    const double guess = round < numerics::false_position_iterations ? end - share * (end - begin) : begin + (end - begin) / 2;
+    const double t = std::clamp(guess, begin + near / 2, end - near / 2);
+    look_(t, between_);
+    take_bands(between_);
+    const int moves = falls(between_) ? 1 : -1;
+    weight = moves != last_moved ? 1 : moves > 0 ? weight / 2 : 2 * weight;
+    last_moved = moves;
+    if (moves > 0) {
+      end = t;
+      right_.swap(between_);
+    } else {
+      begin = t;
+      left_.swap(between_);
+    }
+  }
+  return end;
+}
+
+}  // namespace rheonet

@@ -1,0 +1,82 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+#include "core/base/numerics.hpp"
+#include "core/dae/dae.hpp"
+#include "core/dae/time_functions.hpp"
+
+namespace rheonet {
+
+/// The nodes of the Chebyshev polynomials that stand for quantities within a step, from 0, its beginning, to `last`, its end.
+struct StepNodes {
+  static constexpr int last = numerics::arc_nodes;
+  using Shares = Eigen::Matrix<double, last + 1, 1>;  ///< of each node
+
+  Shares place;  ///< share of the step
+  Shares highest, second_highest;  ///< of a value in the coefficients of the two highest polynomials
+
+  StepNodes();
+  /// Of the values at the nodes in that at a share of the step (barycentric formula: J.-P. Berrut and L. N. Trefethen, SIAM Review 46 (2004) 501).
+  Shares at(double share) const;
+
+ private:
+  Shares barycentric_;
+};
+
+/// The nodes, which are the same for all steps.
+const StepNodes& step_nodes();
+
+/// M d' + K d = h(t) with constant matrices. The rows with derivatives give the states z = M d, the others are algebraic: [M; K] d = [z; h],
+/// z' = A z + L h. For each of the functions of time that h is made of, the response of z is a matrix, kept for the nodes of steps of
+/// h0 2^k, k = 0, 1, ...: by Taylor's series on the shortest step, and by doubling from there.
+class LinearEquations {
+ public:
+  /// `both` has the rows of M where there are derivatives, else those of K.
+  LinearEquations(const Dae& dae, Eigen::MatrixXd K, Eigen::MatrixXd both);
+
+  bool are(const Eigen::MatrixXd& K, const Eigen::MatrixXd& both) const { return K_ == K && both_ == both; }
+  /// False if they have no unique solution.
+  bool regular() const { return regular_; }
+  /// Sums of the magnitudes of the terms of each row of K d.
+  Eigen::VectorXd terms(const Eigen::VectorXd& d) const { return K_.cwiseAbs() * d.cwiseAbs(); }
+
+  Eigen::Index states() const { return A_.rows(); }
+  Eigen::MatrixXd pushes(const Eigen::MatrixXd& h) const { return L_ * h; }       ///< L h
+  Eigen::MatrixXd of_given(const Eigen::MatrixXd& h) const { return of_given_ * h; }  ///< what h adds to d
+  const Eigen::MatrixXd& of_states() const { return of_states_; }  ///< d = of_states z + of_given h
+  const Eigen::MatrixXd& rate_of_states() const { return A_; }
+
+  /// Chooses the length of the shortest steps for these functions of time on an interval of this length [s].
+  void respond_to(const TimeFunctions& functions, double interval);
+  const TimeFunctions& functions() const { return functions_; }
+
+  /// Of z' = A z + sum of b_j times function j, at one time: z = z0 + change z0 + sum of response_j b_j.
+  struct Propagator {
+    Eigen::MatrixXd change;  ///< exp(A tau) - 1: what is small keeps its digits
+    std::vector<Eigen::MatrixXd> response;
+  };
+  struct Level {
+    std::array<Propagator, StepNodes::last> at_node;  ///< of each node after the first
+    Eigen::MatrixXd states;     ///< all their states, one below the other, by z and the columns of b below each other
+    Eigen::MatrixXd functions;  ///< values of the functions of time (rows) at all nodes
+  };
+  /// Steps of h0 2^k.
+  const Level& level(int k);
+  double length(int level) const;  ///< s
+
+ private:
+  void eliminate(const Dae& dae);
+  Level make_level(double of_step, const Level* half) const;
+
+  Eigen::MatrixXd K_, both_;
+  bool regular_ = false;
+  Eigen::MatrixXd A_, L_, of_states_, of_given_;
+  TimeFunctions functions_;
+  double shortest_ = 0;  ///< h0 [s]
+  std::vector<Level> levels_;
+};
+
+}  // namespace rheonet
