@@ -203,8 +203,12 @@ struct Scene {
   std::vector<std::string> keep;       ///< names of reductions that are not applied: core/network/reductions.hpp
 
   /// How the time between two events is crossed.
-  enum class Method { ida, exact };
-  Method method = Method::ida;
+  enum class Method {
+    automatic,  ///< by exact arcs where laws and inputs are linear between events, else by IDA
+    ida,
+    exact,
+  };
+  Method method = Method::automatic;
   Spot method_spot;
   enum class StartFrom {
     given,   ///< the start values of nodes and elements

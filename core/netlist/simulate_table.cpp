@@ -98,7 +98,7 @@ const TomlEntry* read_simulate(const TomlEntry& simulate, const Environment& env
   scene.start = value(reader.find("start"), Quantity::time, 0);
   read_one_of(reader.find("start_from"), {"given", "rest", "steady"}, diagnostics, scene.start_from);
   const TomlEntry* method = reader.find("method");
-  read_one_of(method, {"ida", "exact"}, diagnostics, scene.method);
+  read_one_of(method, {"auto", "ida", "exact"}, diagnostics, scene.method);
   if (method) scene.method_spot = method->value.spot;
   const TomlEntry* stop = reader.require("stop", simulate.spot, "when the run ends: stop = \"1 s\"");
   reader.find("stop_when");  // see StopCondition

@@ -112,6 +112,11 @@ void Iwan::find_kink() {
   next_ = size();
 }
 
+void Iwan::stop_at_every_kink() {
+  kink_share_ = 0;
+  find_kink();
+}
+
 void Iwan::pass_kink(double p) {
   const std::size_t yielding = next_end_;
   if (travel(p) >= y_[yielding - 1]) {

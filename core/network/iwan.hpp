@@ -32,6 +32,8 @@ class Iwan {
 
   /// With kink_share = 0 every yield is an event.
   Iwan(std::vector<Pair> pairs, double kink_share);
+  /// Makes every yield an event, between which F is linear. Call before the start.
+  void stop_at_every_kink();
 
   std::size_t size() const { return pairs_.size(); }
   /// Begins at deflection p towards `direction`, with these forces of the pairs, clamped to their bounds.
@@ -127,6 +129,7 @@ class IwanBatch final : public DeflectionBatch {
  public:
   void add(Iwan bundle) { bundles_.push_back(std::move(bundle)); }
   Iwan& operator[](std::size_t i) { return bundles_[i]; }
+  void stop_at_every_kink() { for (Iwan& bundle : bundles_) bundle.stop_at_every_kink(); }
   const Iwan& operator[](std::size_t i) const { return bundles_[i]; }
 
   std::size_t size() const override { return bundles_.size(); }
@@ -153,7 +156,7 @@ class IwanBatch final : public DeflectionBatch {
   double force_along(std::size_t i, double p, double step, double& slope) const override {
     return bundles_[i].force_along(p, step, slope);
   }
-  bool linear(std::size_t) const override { return false; }
+  bool linear(std::size_t) const override { return true; }  // after stop_at_every_kink
   bool constant(std::size_t i) const override { return bundles_[i].all_yielded(); }
   Steady steady(std::size_t i) const override { return {bundles_[i].total_force(), 0, bundles_[i].total_force()}; }
   double settle(std::size_t i, double p, double f, int direction) override;

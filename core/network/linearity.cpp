@@ -77,9 +77,55 @@ std::optional<NotLinear> not_linear(const Network& network) {
 
 std::optional<NotLinear> not_linear(const Scene& scene) {
   if (const std::optional<Scene> converted = in_common_units(scene)) return not_linear(*converted);
-  Scene by_itself = scene;
-  by_itself.method = Scene::Method::exact;
-  return not_linear(build_network(by_itself));
+  return not_linear(build_network(scene));
+}
+
+namespace {
+
+/// The largest bundle, if it has so many kinks that IDA takes less time.
+std::optional<NotLinear> many_kinks(const Network& network) {
+  for (std::size_t k = 0; network.bundles && k < network.bundles->size(); ++k) {
+    const std::size_t pairs = (*network.bundles)[k].size();
+    const int element = network.deflections[at(network.first_bundle) + k].element;
+    if (pairs > at(numerics::arc_states))
+      return NotLinear{network.spot_of(element), fmt::format("`{}` and others beside it, {} springs with sliders, are taken as one law", network.scene->elements[at(element)].name, pairs)};
+  }
+  return {};
+}
+
+/// A signal with so many corners that IDA, which steps over those that the accuracy cannot see, takes less time.
+std::optional<NotLinear> many_corners(const Network& network) {
+  const auto look = [&](int element, const Signal& signal) -> std::optional<NotLinear> {
+    const auto* table = std::get_if<Signal::Table>(&signal.shape());
+    if (!table || table->times.size() <= numerics::arc_corners) return {};
+    return NotLinear{network.spot_of(element), fmt::format("the table of `{}` has {} points, and steps pass over most of its corners", network.scene->elements[at(element)].name, table->times.size())};
+  };
+  for (const Network::Motion& m : network.motions) {
+    if (m.position) continue;  // the velocity jumps at each corner
+    if (auto found = look(m.element, m.signal)) return found;
+  }
+  for (const Network::Force& f : network.forces) {
+    if (auto found = look(f.element, f.signal)) return found;
+  }
+  for (const Blocks::Block& block : network.blocks.blocks) {
+    if (auto found = look(block.element, block.signal)) return found;
+  }
+  return {};
+}
+
+}  // namespace
+
+NetworkOfMethod::NetworkOfMethod(const Scene& scene, Scene::Method method) : network_(build_network(scene)), exact_(false) {
+  if (method == Scene::Method::ida) return;
+  obstacle_ = not_linear(network_);
+  if (obstacle_ && method == Scene::Method::exact) {
+    throw SimulationError(scene.method == Scene::Method::exact ? scene.method_spot : obstacle_->spot,
+                          fmt::format("`method = \"exact\"` needs laws that are linear between events, but {}; without `method` any scene is simulated", obstacle_->reason));
+  }
+  if (!obstacle_ && method == Scene::Method::automatic) obstacle_ = many_kinks(network_);
+  if (!obstacle_ && method == Scene::Method::automatic) obstacle_ = many_corners(network_);
+  exact_ = !obstacle_;
+  if (exact_ && network_.bundles) network_.bundles->stop_at_every_kink();
 }
 
 }  // namespace rheonet

@@ -22,8 +22,6 @@ const std::string& name_of(Reduction reduction) {
 }
 
 bool kept(const Scene& scene, Reduction reduction) {
-  // A bundle is one curve of many kinks, which is not linear.
-  if (reduction == Reduction::bundles && scene.method == Scene::Method::exact) return true;
   return !scene.keep.empty() && std::find(scene.keep.begin(), scene.keep.end(), name_of(reduction)) != scene.keep.end();
 }
 

@@ -84,15 +84,16 @@ void Claims::begin(double t, const std::vector<double>& values, double fastest) 
   see(values);
   for (State& state : claims_) {
     const Claim& claim = state.claim;
-    const auto note = [&](Statistics& statistics, double value) {
+    const auto note = [&](Statistics& statistics, int record) {
+      const double value = values[at(record)];
       statistics.last = value;
       if (std::abs(t - claim.time) <= slack_) statistics.at = value;
       if (t < claim.from - slack_ || t > claim.to + slack_) return;
       state.looked = t;  // a jump takes no time
-      look(state, statistics, {t, value}, {});
+      look(state, statistics, record, {t, value}, {});
     };
-    note(state.of, values[at(claim.record)]);
-    if (claim.per >= 0) note(state.per, values[at(claim.per)]);
+    note(state.of, claim.record);
+    if (claim.per >= 0) note(state.per, claim.per);
   }
   values_ = values;
 }
@@ -172,7 +173,7 @@ void Claims::piece(double from, double to, const Read& read, int halvings, doubl
         points.push_back({t, read(t)[at(record)]});
       }
       std::sort(points.begin(), points.end(), [](const Point& a, const Point& b) { return a.t < b.t; });
-      for (const Point& point : points) look(state, statistics, point, read);
+      for (const Point& point : points) look(state, statistics, record, point, read);
     };
     follow(state.of, claim.record);
     if (claim.per >= 0) follow(state.per, claim.per);
@@ -193,10 +194,10 @@ bool Claims::may_matter(double middle, const Rows& rows) const {
       switch (claim.figure) {
         case Figure::max:
         case Figure::time_of_max:
-          return !(*most + range < statistics.largest);
+          return !(*most + range < statistics.largest.value);
         case Figure::min:
         case Figure::time_of_min:
-          return !(*least - range > statistics.smallest);
+          return !(range - *least < statistics.smallest.value);
         default:
           break;
       }
@@ -222,17 +223,22 @@ double Claims::off_cubic(double middle, const Rows& rows, double x, const std::v
   return most;
 }
 
-void Claims::look(State& state, Statistics& statistics, const Point& point, const Read& read) {
-  const Claim& claim = state.claim;
+void Claims::Peak::see(double t, double now, double equal) {
   // The comparisons are false for NaN, so that the first value is always taken.
-  if (!(point.value <= statistics.largest)) {
-    statistics.largest = point.value;
-    statistics.largest_at = point.t;
+  if (!(now <= value)) value = now;
+  if (!(now <= height + (passed ? equal : 0))) {
+    at = t;
+    height = now;
+    passed = false;
   }
-  if (!(point.value >= statistics.smallest)) {
-    statistics.smallest = point.value;
-    statistics.smallest_at = point.t;
-  }
+  passed = passed || now < height - equal;
+}
+
+void Claims::look(State& state, Statistics& statistics, int record, const Point& point, const Read& read) {
+  const Claim& claim = state.claim;
+  const double equal = accuracy_ * largest_[at(record)];
+  statistics.largest.see(point.t, point.value, equal);
+  statistics.smallest.see(point.t, -point.value, equal);
   if (claim.figure != Figure::crossing || !std::isnan(state.crossed)) return;
   const double side = side_of(point.value, claim.level);
   if (state.side != 0 && side != state.side) {
@@ -256,17 +262,17 @@ double Claims::figure(const State& state, const Statistics& statistics) const {
     case Figure::final:
       return statistics.last;
     case Figure::max:
-      return statistics.largest;
+      return statistics.largest.value;
     case Figure::min:
-      return statistics.smallest;
+      return -statistics.smallest.value;
     case Figure::mean:
       return statistics.integral / statistics.length;
     case Figure::rms:
       return std::sqrt(statistics.squares / statistics.length);
     case Figure::time_of_max:
-      return statistics.largest_at;
+      return statistics.largest.at;
     case Figure::time_of_min:
-      return statistics.smallest_at;
+      return statistics.smallest.at;
     case Figure::crossing:
       break;
   }

@@ -35,10 +35,17 @@ class Claims {
   std::vector<Finding> findings() const;
 
  private:
+  /// The largest value of a record so far. Of several peaks of one height, within the accuracy, `at` is the time of the first.
+  struct Peak {
+    double value = not_given, at = not_given;
+    double height = not_given;  ///< value at `at`
+    bool passed = false;        ///< the record has fallen since
+    void see(double t, double now, double equal);
+  };
   /// Figures of one record, so far.
   struct Statistics {
-    double last = not_given, largest = not_given, smallest = not_given;
-    double largest_at = not_given, smallest_at = not_given;  ///< first time of these values
+    double last = not_given;
+    Peak largest, smallest;  ///< `smallest`: of the negative of the record
     double integral = 0, squares = 0, length = 0;
     double at = not_given;
   };
@@ -62,7 +69,7 @@ class Claims {
   double off_cubic(double middle, const Rows& rows, double x, const std::vector<double>& probed) const;
   void see(const std::vector<double>& row);
   void end_piece(const State& state, Statistics& statistics, double to, double value) const;
-  void look(State& state, Statistics& statistics, const Point& point, const Read& read);
+  void look(State& state, Statistics& statistics, int record, const Point& point, const Read& read);
   double figure(const State& state, const Statistics& statistics) const;
 
   std::vector<State> claims_;

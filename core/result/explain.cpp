@@ -41,7 +41,7 @@ class Explainer {
       : whole_(whole), reach_(influence_cone(whole)), cut_out_(reach_ ? cut_out(whole, reach_->node, reach_->element) : Scene{}),
         near_(reach_ ? cut_out_ : whole), asked_(divide(near_, {.apart = false})),
         unmerged_(asked_.subscenes.empty() ? near_ : asked_.subscenes.front().scene), reduction_(merge(unmerged_)),
-        scene_(reduction_ ? reduction_->scene : unmerged_), network_(build_network(scene_)) {}
+        scene_(reduction_ ? reduction_->scene : unmerged_), by_method_(scene_, scene_.method), network_(by_method_.network()) {}
 
   Explanation explain() {
     find_effects();
@@ -335,7 +335,10 @@ class Explainer {
   void find_rates(Dae& dae, Consistency& consistency, double t, const std::vector<double>& y, const std::vector<double>& yp) {
     Explanation::Cost& cost = result_.cost;
     cost.unknowns = dae.unknowns();
-    cost.linear = !not_linear(scene_);
+    if (scene_.method == Scene::Method::ida) cost.why_ida = "`method` asks for it";
+    else if (by_method_.obstacle()) cost.why_ida = by_method_.obstacle()->reason;
+    else if (scene_.method == Scene::Method::automatic && dae.states() > numerics::arc_states)
+      cost.why_ida = fmt::format("{} states are more than the {} up to which closed forms cost less", dae.states(), numerics::arc_states);
     cost.entries = dae.unknowns() > 0 ? dae.pattern().entries() : 0;
     cost.sparse = dae.unknowns() > numerics::dense_integration_limit;
     const double rate = dae.unknowns() > 0 ? consistency.fastest_rate(t, scene_.stop - scene_.start, y, yp) : 0;
@@ -378,7 +381,8 @@ class Explainer {
   const Scene& unmerged_;  ///< `near_` without unasked parts
   const std::optional<SeriesParallelReduction> reduction_;
   const Scene& scene_;     ///< the scene that is integrated
-  const Network network_;
+  const NetworkOfMethod by_method_;
+  const Network& network_;
   Explanation result_;
   Grouped<Explanation::Omission> omissions_;
 };

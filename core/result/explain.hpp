@@ -60,7 +60,7 @@ struct Explanation {
   struct Cost {
     int unknowns = 0;
     int entries = 0;            ///< nonzero entries of the Jacobian
-    bool linear = false;        ///< between events: exact arcs can solve the scene
+    std::string why_ida = {};   ///< why IDA and not an exact arc crosses the time between events; empty if an arc does
     bool sparse = false;        ///< KLU rather than dense linear algebra
     double fastest_rate = 0;    ///< fastest rate of the network's own motion at the start [1/s]
     double fastest_drive = 0;   ///< largest angular frequency of the inputs [rad/s]

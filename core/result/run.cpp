@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -297,29 +298,23 @@ Summary run_divided(const Scene& scene, const RunSettings& settings) {
 
 namespace {
 
-void require_linear(const Network& network) {
-  const std::optional<NotLinear> obstacle = not_linear(network);
-  if (!obstacle) return;
-  const Scene& scene = *network.scene;
-  throw SimulationError(scene.method == Scene::Method::exact ? scene.method_spot : obstacle->spot,
-                        fmt::format("`method = \"exact\"` needs laws that are linear between events, but {}; without `method` any scene is simulated", obstacle->reason));
-}
-
 /// One scene as a whole.
 Summary integrate(const Scene& scene, const RunSettings& settings, bool locate_events) {
   if (const std::optional<Scene> converted = in_common_units(scene)) return integrate(*converted, settings, locate_events);
   const auto wall = std::chrono::steady_clock::now();
   const double cpu = cpu_seconds();
-  const Network network = build_network(scene);
+  Scene::Method method = settings.method.value_or(scene.method);
+  // Arcs have no order, and locate every event.
+  if (method == Scene::Method::automatic && (settings.order != Integrator::highest_order || !locate_events)) method = Scene::Method::ida;
+  const NetworkOfMethod by_method(scene, method);
+  const Network& network = by_method.network();
   const std::vector<char> needed = needed_positions(network);
   Recorder recorder(network, settings);
   Profile profile;
-  const bool exact = settings.method.value_or(scene.method) == Scene::Method::exact;
-  if (exact) require_linear(network);
   const SimulationSettings how{.stop = scene.stop - scene.start,
                                .accuracy = settings.tolerance.value_or(scene.accuracy),
                                .order = settings.order,
-                               .exact = exact,
+                               .arc_states = !by_method.exact() ? 0 : method == Scene::Method::exact ? std::numeric_limits<int>::max() : numerics::arc_states,
                                .locate_events = locate_events,
                                .switch_times = settings.events != nullptr || settings.event,
                                .interrupt = settings.interrupt,
@@ -406,8 +401,8 @@ class StartObserver final : public Observer {
 
 StartReport check(const Scene& scene) {
   if (const std::optional<Scene> converted = in_common_units(scene)) return check(*converted);
-  const Network network = build_network(scene);
-  if (scene.method == Scene::Method::exact) require_linear(network);
+  const NetworkOfMethod by_method(scene, scene.method == Scene::Method::exact ? Scene::Method::exact : Scene::Method::ida);
+  const Network& network = by_method.network();
   StartObserver observer(network);
   const SimulationSettings settings{
       .stop = scene.stop - scene.start, .accuracy = scene.accuracy, .interrupt = nullptr, .progress = {}, .profile = nullptr};

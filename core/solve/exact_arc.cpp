@@ -23,6 +23,7 @@ struct ExactArc::Implementation {
   std::vector<LinearEquations> known;  ///< of the modes of the laws so far
   std::size_t present = 0;
   int next_level = 0;
+  int limiting = -1;  ///< the unknown for which the last step is no longer; -1 if none
   TimePoint begin;
   double length = 0;
   VectorXd y0;
@@ -62,7 +63,7 @@ struct ExactArc::Implementation {
     }
     if (known.size() >= numerics::arc_modes_kept) known.clear();
     present = known.size();
-    known.emplace_back(dae, std::move(K), std::move(both));
+    known.emplace_back(dae, std::move(K), std::move(both), length);
     next_level = 0;
   }
 
@@ -96,14 +97,21 @@ struct ExactArc::Implementation {
     return given.allFinite() && (misfit.array() <= numerics::arc_misfit * largest.cwiseMax(terms).array()).all();
   }
 
-  bool converged() const {
+  bool converged() {
     const StepNodes& nodes = step_nodes();
+    double worst = 1;
+    bool all = true;
     for (Index i = 0; i < n; ++i) {
       const double most = (y.row(i).array() + y0(i)).abs().maxCoeff();
       const double negligible = std::max(numerics::arc_share * tolerance[at(static_cast<int>(i))], numerics::arc_ulps * std::numeric_limits<double>::epsilon() * most);
-      if (!(std::abs(y.row(i).dot(nodes.highest)) + std::abs(y.row(i).dot(nodes.second_highest)) <= negligible)) return false;
+      const double left = std::abs(y.row(i).dot(nodes.highest)) + std::abs(y.row(i).dot(nodes.second_highest));
+      if (left <= negligible) continue;
+      all = false;
+      if (left <= worst * negligible) continue;
+      worst = left / negligible;
+      limiting = static_cast<int>(i);
     }
-    return true;
+    return all;
   }
 
   /// Fills the nodes of a step of this level from `from` on.
@@ -140,6 +148,7 @@ struct ExactArc::Implementation {
     const double left = length - from;
     int level = std::min(next_level, numerics::arc_levels);
     while (level > 0 && (e.length(level - 1) >= std::min(left, longest) || e.functions().fastest() * e.length(level) > numerics::arc_phase)) --level;
+    limiting = -1;
     for (;; --level) {
       look(level);
       if (level == 0 || converged()) break;
@@ -170,13 +179,15 @@ bool ExactArc::begin(TimePoint t, const std::vector<double>& y, double length) {
   LinearEquations& e = s.equations();
   if (!e.regular()) return false;
   e.respond_to(*functions, length);
-  if (length > numerics::arc_steps * e.length(numerics::arc_levels) || !s.find_given(*functions)) return false;
+  if (length > numerics::arc_steps * e.length(0) || length * e.fastest_decay() > numerics::arc_decays || !s.find_given(*functions)) return false;
   s.z = VectorXd::Zero(e.states());
   s.from = s.step = 0;
   return true;
 }
 
 double ExactArc::step(double from, double longest) { return impl_->go(from, longest); }
+
+int ExactArc::limiting_unknown() const { return impl_->limiting; }
 
 void ExactArc::evaluate(double since_begin, int derivative, double* out) const {
   const Implementation& s = *impl_;

@@ -24,6 +24,8 @@ class ExactArc {
   bool begin(TimePoint t, const std::vector<double>& y, double length);
   /// Goes on from `from`, the time since `begin` [s], by at most `longest`. Returns the end of the step [s since `begin`].
   double step(double from, double longest);
+  /// The unknown that a longer step would not have resolved; -1 if there is none.
+  int limiting_unknown() const;
   /// The solution (derivative 0) or its time derivative (1) within the last step.
   void evaluate(double since_begin, int derivative, double* out) const;
 

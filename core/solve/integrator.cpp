@@ -95,7 +95,7 @@ struct Integrator::Implementation {
     solver->ops->setsysfn = [](SUNNonlinearSolver, SUNNonlinSolSysFn) { return SUN_NLS_SUCCESS; };
     solver->ops->solve = solve;
     require(IDASetNonlinearSolver(ida, solver), "IDASetNonlinearSolver");
-    if (options.exact) arc = std::make_unique<ExactArc>(dae, tol);
+    if (options.arc_states > 0 && dae.states() <= options.arc_states) arc = std::make_unique<ExactArc>(dae, tol);
   }
 
   ~Implementation() {
@@ -232,7 +232,8 @@ struct Integrator::Implementation {
   /// The unknown with the largest error estimate relative to its tolerance, of those for which `counts` is true; -1 if none.
   template <class Counts>
   int worst(Counts counts) const {
-    if (on_arc || dae.unknowns() == 0 || IDAGetEstLocalErrors(ida, nw) < 0) return -1;
+    if (on_arc) return arc->limiting_unknown();
+    if (dae.unknowns() == 0 || IDAGetEstLocalErrors(ida, nw) < 0) return -1;
     int worst = -1;
     double largest = 0;
     for (std::size_t i = 0; i < work.size(); ++i) {

@@ -1,5 +1,6 @@
 #include "core/solve/linear_equations.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -90,14 +91,20 @@ Propagator doubled(const Propagator& p, const TimeFunctions& functions, double t
   return twice;
 }
 
-/// Makes the norms of each row and its column alike by powers of 2 (E. E. Osborne 1960). Returns the scales of the states.
-VectorXd balance(MatrixXd& A) {
+/// Makes the norms of each row and its column alike by powers of 2 (E. E. Osborne 1960). What takes no part in any loop, as the position of a
+/// mass without a spring, is scaled until it changes at a rate of the loops, or at `slowest` [1/s]. Returns the scales of the states.
+VectorXd balance(MatrixXd& A, double slowest) {
   VectorXd scale = VectorXd::Ones(A.rows());
+  if (A.size() == 0) return scale;
+  const double rate = std::max(slowest, A.cwiseAbs().cwiseSqrt().cwiseProduct(A.cwiseAbs().cwiseSqrt().transpose()).maxCoeff());
   for (bool more = true; std::exchange(more, false);) {
     for (Index i = 0; i < A.rows(); ++i) {
       const double own = std::abs(A(i, i)), column = A.col(i).cwiseAbs().sum() - own, row = A.row(i).cwiseAbs().sum() - own;
-      if (!(column > 0) || !(row > 0)) continue;
-      const double by = std::exp2(std::round(std::log2(row / column) / 2));
+      if (!(column > 0) && !(row > 0)) continue;
+      double by = 1;
+      if (column > 0 && row > 0) by = std::exp2(std::round(std::log2(row / column) / 2));
+      else if (row > rate) by = std::exp2(std::ceil(std::log2(row / rate)));
+      else if (column > rate) by = std::exp2(-std::ceil(std::log2(column / rate)));
       if (column * by + row / by >= numerics::arc_balance * (column + row)) continue;
       A.col(i) *= by;
       A.row(i) /= by;
@@ -124,9 +131,9 @@ MatrixXd scaled_inverse(const MatrixXd& matrix) {
 
 }  // namespace
 
-LinearEquations::LinearEquations(const Dae& dae, MatrixXd K, MatrixXd both) : K_(std::move(K)), both_(std::move(both)) { eliminate(dae); }
+LinearEquations::LinearEquations(const Dae& dae, MatrixXd K, MatrixXd both, double interval) : K_(std::move(K)), both_(std::move(both)) { eliminate(dae, 1 / interval); }
 
-void LinearEquations::eliminate(const Dae& dae) {
+void LinearEquations::eliminate(const Dae& dae, double slowest) {
   const Index n = K_.rows();
   const MatrixXd S = scaled_inverse(both_);
   if (S.size() == 0) return;
@@ -141,10 +148,11 @@ void LinearEquations::eliminate(const Dae& dae) {
   A_ = -K * of_states_;
   L_ = -K * of_given_;
   for (std::size_t k = 0; k < rows.size(); ++k) L_(static_cast<Index>(k), rows[k]) += 1;
-  const VectorXd scale = balance(A_);
+  const VectorXd scale = balance(A_, slowest);
   of_states_ = of_states_ * scale.asDiagonal();
   L_ = scale.cwiseInverse().asDiagonal() * L_;
   regular_ = A_.allFinite() && L_.allFinite() && of_states_.allFinite() && of_given_.allFinite();
+  if (regular_ && A_.rows() > 0) fastest_decay_ = std::max(0.0, -A_.eigenvalues().real().minCoeff());
 }
 
 double LinearEquations::length(int level) const { return std::ldexp(shortest_, level); }

@@ -34,8 +34,8 @@ const StepNodes& step_nodes();
 /// h0 2^k, k = 0, 1, ...: by Taylor's series on the shortest step, and by doubling from there.
 class LinearEquations {
  public:
-  /// `both` has the rows of M where there are derivatives, else those of K.
-  LinearEquations(const Dae& dae, Eigen::MatrixXd K, Eigen::MatrixXd both);
+  /// `both` has the rows of M where there are derivatives, else those of K. `interval`: a time for which they are to be solved [s].
+  LinearEquations(const Dae& dae, Eigen::MatrixXd K, Eigen::MatrixXd both, double interval);
 
   bool are(const Eigen::MatrixXd& K, const Eigen::MatrixXd& both) const { return K_ == K && both_ == both; }
   /// False if they have no unique solution.
@@ -44,6 +44,7 @@ class LinearEquations {
   Eigen::VectorXd terms(const Eigen::VectorXd& d) const { return K_.cwiseAbs() * d.cwiseAbs(); }
 
   Eigen::Index states() const { return A_.rows(); }
+  double fastest_decay() const { return fastest_decay_; }  ///< rate at which a motion dies away [1/s]
   Eigen::MatrixXd pushes(const Eigen::MatrixXd& h) const { return L_ * h; }       ///< L h
   Eigen::MatrixXd of_given(const Eigen::MatrixXd& h) const { return of_given_ * h; }  ///< what h adds to d
   const Eigen::MatrixXd& of_states() const { return of_states_; }  ///< d = of_states z + of_given h
@@ -68,12 +69,13 @@ class LinearEquations {
   double length(int level) const;  ///< s
 
  private:
-  void eliminate(const Dae& dae);
+  void eliminate(const Dae& dae, double slowest);
   Level make_level(double of_step, const Level* half) const;
 
   Eigen::MatrixXd K_, both_;
   bool regular_ = false;
   Eigen::MatrixXd A_, L_, of_states_, of_given_;
+  double fastest_decay_ = 0;
   TimeFunctions functions_;
   double shortest_ = 0;  ///< h0 [s]
   std::vector<Level> levels_;

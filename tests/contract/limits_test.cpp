@@ -131,7 +131,9 @@ TEST_CASE("contract: at a limit a law is the law of the limit") {
       for (const double small : distances) {
         RunTable nearby;
         try {
-          nearby = simulate(situate(*c.component, near(values, generic, small), c.place, c.seed).scene);
+          Scene scene = situate(*c.component, near(values, generic, small), c.place, c.seed).scene;
+          scene.method = Scene::Method::ida;  // a spring with hardly any inertance rings for ever, which IDA steps over
+          nearby = simulate(scene);
         } catch (const SimulationError&) {
           break;  // a velocity that goes with a high power of 1/small is beyond any numbers
         }

@@ -13,7 +13,7 @@ namespace rheonet::test {
 namespace {
 
 /// x = 1 mm cos(10 t), over some swings.
-const std::string swings = block_on_spring + "stop = 3.7\noutput = { points = 211 }\nrecord = [\"block.position\"]\n";
+const std::string swings = block_on_spring + "method = \"ida\"\nstop = 3.7\noutput = { points = 211 }\nrecord = [\"block.position\"]\n";
 
 double true_error(const Scene& scene, const Setting& setting) {
   const Trajectory trajectory = run_to_memory(scene, {.tolerance = setting.tolerance, .order = setting.order});

@@ -98,6 +98,7 @@ body = {{ type = "mass", at = "body", mass = {} }}
 rub = {{ type = "slider", between = ["body", "ground"], coulomb = 400 }}
 [simulate]
 stop = 2
+method = "ida"
 accuracy = {}
 record = ["body.position"]
 )", kind, signal, k, c, m, accuracy)));

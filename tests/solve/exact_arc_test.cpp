@@ -194,7 +194,7 @@ TEST_CASE("what is not linear is left to IDA, or named") {
     simulate(scene, &summary);
     CHECK_EQ(summary.arc_steps, 0);
   }
-  CHECK(refusal("[elements]\n" + mass + "[simulate]\nstop = 1\nmethod = \"arcs\"").find("`method` must be `ida` or `exact`, but is `arcs`") != std::string::npos);
+  CHECK(refusal("[elements]\n" + mass + "[simulate]\nstop = 1\nmethod = \"arcs\"").find("`method` must be `auto`, `ida` or `exact`, but is `arcs`") != std::string::npos);
 }
 
 // The fast motion decays within 1e-9 s: no step of an arc is long enough.

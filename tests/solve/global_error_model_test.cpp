@@ -83,6 +83,7 @@ k1 = {{ type = "spring", between = ["a", "ground"], stiffness = {} }}
 c1 = {{ type = "dashpot", between = ["a", "ground"], damping = {} }}
 f1 = {{ type = "force", at = "a", force = {{ sine = 5, frequency = 2.1 }} }}
 [simulate]
+method = "ida"
 stop = {}
 )", m, k, damping, cycles / 2.1);
   };

@@ -7,7 +7,7 @@ using namespace rheonet::test;
 
 
 TEST_CASE("--certify says how far each record is off, and writes the rows that it is about") {
-  const Folder folder(oscillator);
+  const Folder folder(oscillator + "method = \"ida\"\n");
   const Finished result = folder.shell("rheonet run scene.toml --certify -o out.csv --plot out.svg", 0);
   CAPTURE(result.err);
   CHECK(contains(result.err, "certified: every record is within 1e-06 of its largest magnitude\n"));
@@ -18,6 +18,10 @@ TEST_CASE("--certify says how far each record is off, and writes the rows that i
   CHECK(folder.read("out.csv") == folder.shell("rheonet run -q scene.toml").out);
   CHECK(contains(folder.read("out.svg"), "k1.force"));
   CHECK(folder.shell("rheonet run -q --certify scene.toml", 0).err == "");
+
+  folder.write("exact.toml", oscillator);
+  const Finished exact = folder.shell("rheonet run exact.toml --certify -o out.csv", 0);
+  CHECK(contains(exact.err, "solved in closed form between events, measured by a run of IDA to 1e-08; 2 runs, "));
 
   folder.write("events.toml", switching);
   folder.shell("rheonet run -q events.toml --certify -o out.csv --events certified.csv", 0);

@@ -20,7 +20,7 @@ m1 = { type = "mass", at = "cart", mass = 0.7 }
 c1 = { type = "dashpot", between = ["cart", "ground"], damping = 2 }
 $1
 [simulate]
-stop = 12
+stop = 60
 output = { points = 11 }
 record = ["cart.velocity", "k1.force"]
 SCENE

@@ -96,8 +96,7 @@ Passage cost_of(const Scene& scene, const Explanation& e) {
   const Explanation::Cost& c = e.cost;
   Passage passage{.heading = "cost"};
   const auto add = [&passage](std::string text) { passage.lines.push_back(plain(std::move(text))); };
-  if (scene.method == Scene::Method::exact) add("solved in closed form between events");
-  else if (c.linear) add("solved by SUNDIALS IDA; all laws are linear between events: method = \"exact\" solves it in closed form");
+  if (c.unknowns > 0) add(c.why_ida.empty() ? "solved in closed form between events: laws and inputs are linear there" : "solved by SUNDIALS IDA: " + c.why_ida);
   if (c.unknowns > 0)
     add(fmt::format("entries of the Jacobian: {}, factorised {}", c.entries, c.sparse ? "as a sparse matrix (KLU)" : "as a dense matrix"));
   std::vector<std::string> times;
@@ -165,7 +164,7 @@ std::string to_json(const Scene& scene, const Explanation& e) {
                   {"fastest_drive", c.fastest_drive}, {"known_instants", c.known_instants},
                   {"tried_steps", c.tried_steps},     {"tried", c.tried},
                   {"steps", c.steps},                 {"seconds_a_step", c.seconds_a_step},
-                  {"linear_between_events", c.linear},
+                  {"closed_form", c.why_ida.empty()}, {"why_ida", c.why_ida},
                   {"seconds", c.seconds()}};
   json["notes"] = e.notes;
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
