@@ -305,7 +305,7 @@ test('a run that is cut short shows what there is of it', async () => {
   await page.locator('.explanation').waitFor();
   assert.equal(await page.locator('details[data-name="Energy account"]').count(), 0);
   // Or why there is nothing so far.
-  await replaced(page, stickSlip.replace('"8 s"', '"1e7 s"').replace('points = 801', 'every = "1 s"'));
+  await replaced(page, stickSlip.replace('"8 s"', '"1e7 s"\nmethod = "ida"').replace('points = 801', 'every = "1 s"'));
   await page.locator('.no-curves').waitFor();
   assert.match(await page.textContent('.no-curves'), /nothing to draw so far\. The run takes longer than the 1 s/);
   assert.deepEqual(wrong, []);
