@@ -9,6 +9,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <numbers>
 #include <vector>
 
 #include "core/netlist/characters.hpp"
@@ -22,17 +23,33 @@ namespace {
 using UnitResult = std::variant<Unit, TextError>;
 
 /// Units that UDUNITS-2 does not know, interprets differently, or gives with less than double precision (0.2780139 N for an
-/// ounce of force).
+/// ounce of force); and those in daily use, as it takes longer to read its database than to simulate a small scene.
 struct Definition {
   std::string_view name;
   double factor;
   std::string_view unit;
 };
 constexpr Definition definitions[] = {
+    {"min", 60, "s"},
+    {"h", 3600, "s"},
+    {"hour", 3600, "s"},
+    {"deg", std::numbers::pi / 180, "rad"},
+    {"degree", std::numbers::pi / 180, "rad"},
+    {"rev", 2 * std::numbers::pi, "rad"},
+    {"turn", 2 * std::numbers::pi, "rad"},
+    {"rpm", 2 * std::numbers::pi / 60, "rad/s"},
+    {"P", 0.1, "Pa*s"},
+    {"cP", 1e-3, "Pa*s"},
+    {"St", 1e-4, "m^2/s"},
+    {"cSt", 1e-6, "m^2/s"},
+    {"bar", 1e5, "Pa"},
+    {"t", 1e3, "kg"},
+    {"in", 0.0254, "m"},
+    {"ft", 0.3048, "m"},
+    {"lb", 0.45359237, "kg"},
+    {"lbf", 4.4482216152605, "N"},
+    {"psi", 4.4482216152605 / (0.0254 * 0.0254), "Pa"},
     {"dyn", 1, "dyne"},
-    {"deg", 1, "degree"},
-    {"rev", 1, "turn"},
-    {"P", 1, "poise"},
     {"gon", 0.9, "degree"},
     {"thou", 1e-3, "inch"},
     {"mph", 1, "mile/hour"},  // UDUNITS: a milliphot

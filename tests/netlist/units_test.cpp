@@ -62,6 +62,21 @@ TEST_CASE("units have the factor of their definition, to double precision") {
   check("%", 0.01, {});
 }
 
+TEST_CASE("symbols in daily use are the units of UDUNITS with the long names") {
+  const std::pair<const char*, const char*> same[] = {
+      {"min", "minute"}, {"h", "hours"}, {"hour", "hours"}, {"deg", "arc_degree"}, {"degree", "arc_degree"}, {"rev", "circle"}, {"turn", "circle"}, {"rpm", "circle/minute"},
+      {"P", "poises"}, {"cP", "centipoise"}, {"St", "stokes"}, {"cSt", "centistokes"}, {"bar", "bars"}, {"t", "tonne"}, {"in", "international_inch"},
+      {"ft", "international_foot"}, {"lb", "avoirdupois_pound"}, {"lbf", "force_pound"}, {"psi", "force_pound/international_inch^2"}};
+  for (const auto& [symbol, name] : same) {
+    CAPTURE(symbol);
+    const Unit a = std::get<Unit>(parse_unit(symbol)), b = std::get<Unit>(parse_unit(name));
+    CHECK(std::abs(a.factor - b.factor) <= 4e-16 * b.factor);
+    CHECK(a.dimension.same(b.dimension));
+    CHECK(a.radian == b.radian);
+    CHECK(a.hertz == b.hertz);
+  }
+}
+
 TEST_CASE("angles count as numbers, but rad and Hz are remembered") {
   check("deg", pi / 180, {}, 1);
   check("°", pi / 180, {}, 1);
