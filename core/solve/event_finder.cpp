@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 #include "core/base/index.hpp"
@@ -13,18 +14,22 @@ namespace rheonet {
 
 namespace {
 
-/// Lagrange's polynomial through values at 0, 1, 2, ...
-template <std::size_t count>
-double through(const std::array<double, count>& values, double place) {
-  double sum = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    double product = values[i];
-    for (std::size_t j = 0; j < count; ++j) {
-      if (j != i) product *= (place - static_cast<double>(j)) / (static_cast<double>(i) - static_cast<double>(j));
+constexpr int parts = numerics::arc_parts, finer = parts;
+constexpr std::size_t places = parts * finer + 1;
+
+/// Lagrange's polynomials for values at the ends of the parts: their values at places `1/finer` of a part apart.
+constexpr std::array<std::array<double, parts + 1>, places> lagrange() {
+  std::array<std::array<double, parts + 1>, places> result{};
+  for (std::size_t p = 0; p < places; ++p) {
+    for (int i = 0; i <= parts; ++i) {
+      double product = 1;
+      for (int j = 0; j <= parts; ++j) {
+        if (j != i) product *= (static_cast<double>(p) / finer - j) / (i - j);
+      }
+      result[p][static_cast<std::size_t>(i)] = product;
     }
-    sum += product;
   }
-  return sum;
+  return result;
 }
 
 }  // namespace
@@ -45,7 +50,6 @@ std::optional<double> EventFinder::in_step(double begin, double end) {
 /// Between equal parts of the step a function is a polynomial of degree 4 as far as one can see; where that comes near 0, the function
 /// itself is looked at.
 std::optional<double> EventFinder::in_long_step(double begin, double end) {
-  constexpr int parts = numerics::arc_parts;
   std::vector<Seen> seen{{begin, left_}};
   for (int k = 1; k <= parts; ++k) seen.push_back(look_at(k == parts ? end : begin + (end - begin) * k / parts));
   look_at_dips(seen);
@@ -64,21 +68,24 @@ EventFinder::Seen EventFinder::look_at(double t) const {
 }
 
 void EventFinder::look_at_dips(std::vector<Seen>& seen) const {
-  constexpr int parts = numerics::arc_parts, finer = parts;
+  static constexpr auto shares = lagrange();
   const double begin = seen.front().time, end = seen.back().time;
   std::vector<double> dips;
   for (std::size_t f = 0; f < fired_.size(); ++f) {
     std::array<double, parts + 1> g;
     for (std::size_t k = 0; k < g.size(); ++k) g[k] = seen[k].functions[f];
     const auto [least, most] = std::minmax_element(g.begin(), g.end());
-    if (!(*least > 0)) continue;
-    double lowest = *least, place = static_cast<double>(least - g.begin());
-    for (int k = 0; k <= parts * finer; ++k) {
-      const double there = static_cast<double>(k) / finer, value = through(g, there);
-      if (value < lowest) lowest = value, place = there;
+    // A polynomial of degree 4 does not fall below five equally spaced values by more than their difference.
+    if (!(*least > 0) || *least > (1 + numerics::arc_dip) * (*most - *least)) continue;
+    double lowest = std::numeric_limits<double>::infinity();
+    std::size_t place = 0;
+    for (std::size_t p = 0; p < places; ++p) {
+      const double value = std::inner_product(g.begin(), g.end(), shares[p].begin(), 0.0);
+      if (value < lowest) lowest = value, place = p;
     }
     if (lowest > numerics::arc_dip * (*most - *least)) continue;
-    const std::optional<double> t = minimum_near(f, begin + (end - begin) * place / parts, begin, end, (end - begin) / (parts * finer));
+    const double apart = (end - begin) / (parts * finer);
+    const std::optional<double> t = minimum_near(f, begin + apart * static_cast<double>(place), begin, end, apart);
     if (t) dips.push_back(*t);
   }
   for (const double t : dips) {
@@ -92,7 +99,7 @@ void EventFinder::look_at_dips(std::vector<Seen>& seen) const {
 std::optional<double> EventFinder::minimum_near(std::size_t function, double t, double begin, double end, double apart) const {
   const auto value = [&](double then) { return look_at(then).functions[function]; };
   bool minimum = false;
-  for (int n = 0; n < numerics::missed_event_refinements; ++n, apart /= numerics::arc_parts * numerics::arc_parts) {
+  for (int n = 0; n < numerics::missed_event_refinements; ++n, apart /= parts * finer) {
     t = std::clamp(t, begin + apart, end - apart);
     const double before = value(t - apart), here = value(t), after = value(t + apart), bend = before - 2 * here + after;
     minimum = here <= 0 || (before >= here && after >= here);

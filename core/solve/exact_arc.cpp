@@ -30,8 +30,8 @@ struct ExactArc::Implementation {
   MatrixXd given;              ///< coefficients of h by the functions of time since `begin`
   VectorXd z;                  ///< at `from`
   double from = 0, step = 0;   ///< of the last step [s since `begin`], [s]
-  MatrixXd y, yp, states;      ///< less y0, at the nodes of the last step
-  MatrixXd rates;              ///< of the states
+  StepNodes::Values y, yp, states;  ///< less y0, in the last step
+  StepNodes::Values rates;          ///< of the states
   MatrixXd pushes, given_part, given_rate;  ///< L h, what h adds to d, and its rate, by the functions of time
   VectorXd drive;              ///< z, and the columns of L h
   mutable double place = not_given;   ///< share of the step, last asked for
@@ -39,7 +39,7 @@ struct ExactArc::Implementation {
   std::vector<double> entries, at_rest;
 
   Implementation(Dae& d, const std::vector<double>& tol)
-      : dae(d), tolerance(tol), n(d.size()), y0(n), y(n, StepNodes::last + 1), yp(y), entries(at(d.pattern().entries())), at_rest(at(d.size()), 0) {}
+      : dae(d), tolerance(tol), n(d.size()), y0(n), y(n, StepNodes::count), yp(y), entries(at(d.pattern().entries())), at_rest(at(d.size()), 0) {}
 
   LinearEquations& equations() { return known[present]; }
 
@@ -114,21 +114,32 @@ struct ExactArc::Implementation {
     return all;
   }
 
+  /// sum += matrix values, where most of the matrix may be 0.
+  static void add(const MatrixXd& matrix, const StepNodes::Values& values, StepNodes::Values& sum) {
+    for (Index k = 0; k < matrix.cols(); ++k) {
+      for (Index i = 0; i < matrix.rows(); ++i) {
+        if (matrix(i, k) != 0) sum.row(i) += matrix(i, k) * values.row(k);
+      }
+    }
+  }
+
   /// Fills the nodes of a step of this level from `from` on.
   void look(int number) {
     LinearEquations& e = equations();
     const LinearEquations::Level& level = e.level(number);
     step = e.length(number);
     place = not_given;
-    states.resize(z.size(), StepNodes::last + 1);
-    states.col(0) = z;
-    Eigen::Map<VectorXd>(states.data() + z.size(), z.size() * StepNodes::last).noalias() = level.states * drive;
-    y.noalias() = e.of_states().lazyProduct(states);
-    y.noalias() += given_part.lazyProduct(level.functions);
-    rates.noalias() = e.rate_of_states().lazyProduct(states);
-    rates.noalias() += pushes.lazyProduct(level.functions);
-    yp.noalias() = e.of_states().lazyProduct(rates);
-    yp.noalias() += given_rate.lazyProduct(level.functions);
+    states.resize(z.size(), StepNodes::count);
+    Eigen::Map<VectorXd>(states.data(), states.size()).noalias() = level.states * drive;
+    rates.setZero(z.size(), StepNodes::count);
+    add(e.rate_of_states(), states, rates);
+    add(pushes, level.functions, rates);
+    y.setZero();
+    add(e.of_states(), states, y);
+    add(given_part, level.functions, y);
+    yp.setZero();
+    add(e.of_states(), rates, yp);
+    add(given_rate, level.functions, yp);
   }
 
   /// Goes on from a time in the last step.
@@ -195,9 +206,9 @@ void ExactArc::evaluate(double since_begin, int derivative, double* out) const {
   Eigen::Map<VectorXd> value(out, s.n);
   if (derivative == 0) {
     value = s.y0;
-    value.noalias() += s.y.lazyProduct(shares);
+    for (Index i = 0; i < s.n; ++i) value(i) += s.y.row(i).dot(shares);
   } else {
-    value.noalias() = s.yp.lazyProduct(shares);
+    for (Index i = 0; i < s.n; ++i) value(i) = s.yp.row(i).dot(shares);
   }
 }
 

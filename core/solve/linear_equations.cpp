@@ -46,29 +46,36 @@ namespace {
 
 using Propagator = LinearEquations::Propagator;
 
-/// By Taylor's series, for a short time.
-Propagator short_propagator(const MatrixXd& A, const TimeFunctions& functions, double tau) {
-  const MatrixXd one = MatrixXd::Identity(A.rows(), A.cols()), none = MatrixXd::Zero(A.rows(), A.cols());
-  // `coefficient(n)`: that of tau^n of a function, times tau^n.
-  const auto series = [&](const MatrixXd& begin, auto coefficient) {
-    MatrixXd term = begin, sum = none;
-    for (int n = 0; n < numerics::arc_terms; ++n) {
-      term = (A * term + coefficient(n) * one) * (tau / (n + 1));
-      sum += term;
+/// 1, A tau, (A tau)^2, ...
+std::vector<MatrixXd> powers_of(const MatrixXd& A, double tau) {
+  std::vector<MatrixXd> powers{MatrixXd::Identity(A.rows(), A.cols())};
+  for (int n = 1; n <= numerics::arc_terms; ++n) powers.push_back(powers.back() * A * tau);
+  return powers;
+}
+
+/// By Taylor's series, after a share of the short time tau of the powers. The response to tau^m/m! is the sum of A^n tau^(n + m + 1)/(n + m + 1)!.
+Propagator short_propagator(const std::vector<MatrixXd>& powers, const TimeFunctions& functions, double tau, double share) {
+  constexpr int terms = numerics::arc_terms;
+  std::array<double, 2 * terms + 2> shares;  // share^n/n!
+  shares[0] = 1;
+  for (std::size_t n = 1; n < shares.size(); ++n) shares[n] = shares[n - 1] * share / static_cast<double>(n);
+  const MatrixXd none = MatrixXd::Zero(powers[0].rows(), powers[0].cols());
+  Propagator p{.change = none, .response = {}};
+  for (int n = 1; n <= terms; ++n) p.change += shares[at(n)] * powers[at(n)];
+  // `coefficient(m)`: that of the time to the power m, over m!, times tau^m.
+  const auto response_to = [&](auto coefficient) {
+    MatrixXd sum = none;
+    for (int n = 0; n < terms; ++n) {
+      double factor = 0;
+      for (int m = 0; m < terms; ++m) factor += coefficient(m) * shares[at(n + m + 1)];
+      sum += tau * factor * powers[at(n)];
     }
-    return sum;
+    p.response.push_back(std::move(sum));
   };
-  Propagator p{.change = series(one, [](int) { return 0.0; }), .response = {}};
-  const std::array<double, 3> powers{1, tau, tau * tau / 2};
-  for (int k = 0; k <= functions.degree; ++k) p.response.push_back(series(none, [&](int n) { return n == k ? powers[at(k)] : 0.0; }));
+  for (int k = 0; k <= functions.degree; ++k) response_to([&](int m) { return m == k ? std::pow(tau, k) : 0.0; });
   for (const double omega : functions.omegas) {
     for (const bool cosine : {false, true}) {
-      double power = 1;  // (omega tau)^n/n!
-      p.response.push_back(series(none, [&](int n) {
-        if (n > 0) power *= omega * tau / n;
-        if ((n % 2 == 0) != cosine) return 0.0;
-        return n % 4 < 2 ? power : -power;
-      }));
+      response_to([&](int m) { return (m % 2 == 0) != cosine ? 0.0 : (m % 4 < 2 ? 1 : -1) * std::pow(omega * tau, m); });
     }
   }
   return p;
@@ -178,16 +185,19 @@ const LinearEquations::Level& LinearEquations::level(int k) {
 LinearEquations::Level LinearEquations::make_level(double of_step, const Level* half) const {
   Level level;
   const Index r = A_.rows(), count = functions_.count();
-  level.states.resize(StepNodes::last * r, (count + 1) * r);
-  level.functions.resize(count, StepNodes::last + 1);
+  level.states = MatrixXd::Zero(StepNodes::count * r, (count + 1) * r);
+  level.functions.resize(count, StepNodes::count);
+  std::vector<MatrixXd> powers;
+  if (!half) powers = powers_of(A_, of_step);
   for (int i = 0; i <= StepNodes::last; ++i) {
-    const double tau = step_nodes().place(i) * of_step;
+    const double share = step_nodes().place(i), tau = share * of_step;
     level.functions.col(i) = functions_.at(tau);
+    Eigen::Map<MatrixXd, 0, Eigen::Stride<Eigen::Dynamic, Eigen::Dynamic>> rows(level.states.data() + i, r, level.states.cols(), {level.states.rows(), StepNodes::count});
+    rows.leftCols(r) = MatrixXd::Identity(r, r);
     if (i == 0) continue;
     Propagator& p = level.at_node[at(i) - 1];
-    p = half ? doubled(half->at_node[at(i) - 1], functions_, tau / 2) : short_propagator(A_, functions_, tau);
-    auto rows = level.states.middleRows((i - 1) * r, r);
-    rows.leftCols(r) = p.change + MatrixXd::Identity(r, r);
+    p = half ? doubled(half->at_node[at(i) - 1], functions_, tau / 2) : short_propagator(powers, functions_, of_step, share);
+    rows.leftCols(r) += p.change;
     for (Index j = 0; j < count; ++j) rows.middleCols((j + 1) * r, r) = p.response[at(static_cast<int>(j))];
   }
   return level;

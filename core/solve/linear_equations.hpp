@@ -12,8 +12,9 @@ namespace rheonet {
 
 /// The nodes of the Chebyshev polynomials that stand for quantities within a step, from 0, its beginning, to `last`, its end.
 struct StepNodes {
-  static constexpr int last = numerics::arc_nodes;
-  using Shares = Eigen::Matrix<double, last + 1, 1>;  ///< of each node
+  static constexpr int last = numerics::arc_nodes, count = last + 1;
+  using Shares = Eigen::Matrix<double, count, 1>;  ///< of each node
+  using Values = Eigen::Matrix<double, Eigen::Dynamic, count, Eigen::RowMajor>;  ///< of several quantities (rows) at the nodes
 
   Shares place;  ///< share of the step
   Shares highest, second_highest;  ///< of a value in the coefficients of the two highest polynomials
@@ -61,8 +62,8 @@ class LinearEquations {
   };
   struct Level {
     std::array<Propagator, StepNodes::last> at_node;  ///< of each node after the first
-    Eigen::MatrixXd states;     ///< all their states, one below the other, by z and the columns of b below each other
-    Eigen::MatrixXd functions;  ///< values of the functions of time (rows) at all nodes
+    Eigen::MatrixXd states;       ///< by z and the columns of b below each other: the first state at all nodes, then the second, ...
+    StepNodes::Values functions;  ///< the functions of time
   };
   /// Steps of h0 2^k.
   const Level& level(int k);
