@@ -33,7 +33,7 @@ struct ExactArc::Implementation {
   StepNodes::Values y, yp, states;  ///< less y0, in the last step
   StepNodes::Values rates;          ///< of the states
   MatrixXd pushes, given_part, given_rate;  ///< L h, what h adds to d, and its rate, by the functions of time
-  VectorXd drive;              ///< z, and the columns of L h
+  VectorXd drive;              ///< of the states in the last step
   mutable double place = not_given;   ///< share of the step, last asked for
   mutable StepNodes::Shares shares;   ///< of the nodes there
   std::vector<double> entries, at_rest;
@@ -154,8 +154,7 @@ struct ExactArc::Implementation {
     pushes = e.pushes(h);
     given_part = e.of_given(h);
     given_rate = e.functions().derivative(given_part);
-    drive.resize(z.size() + pushes.size());
-    drive << z, Eigen::Map<const VectorXd>(pushes.data(), pushes.size());
+    drive = e.drive(z, pushes);
     const double left = length - from;
     int level = std::min(next_level, numerics::arc_levels);
     while (level > 0 && (e.length(level - 1) >= std::min(left, longest) || e.functions().fastest() * e.length(level) > numerics::arc_phase)) --level;
@@ -189,8 +188,9 @@ bool ExactArc::begin(TimePoint t, const std::vector<double>& y, double length) {
   s.find_equations();
   LinearEquations& e = s.equations();
   if (!e.regular()) return false;
-  e.respond_to(*functions, length);
-  if (length > numerics::arc_steps * e.length(0) || length * e.fastest_decay() > numerics::arc_decays || !s.find_given(*functions)) return false;
+  if (length * e.fastest_decay() > numerics::arc_decays || !s.find_given(*functions)) return false;
+  e.respond_to(*functions, s.given, length);
+  if (length > numerics::arc_steps * e.length(0)) return false;
   s.z = VectorXd::Zero(e.states());
   s.from = s.step = 0;
   return true;

@@ -54,21 +54,20 @@ std::vector<MatrixXd> powers_of(const MatrixXd& A, double tau) {
 }
 
 /// By Taylor's series, after a share of the short time tau of the powers. The response to tau^m/m! is the sum of A^n tau^(n + m + 1)/(n + m + 1)!.
-Propagator short_propagator(const std::vector<MatrixXd>& powers, const TimeFunctions& functions, double tau, double share) {
+Propagator short_propagator(const std::vector<MatrixXd>& powers, const TimeFunctions& functions, const std::vector<Index>& pushed, double tau, double share) {
   constexpr int terms = numerics::arc_terms;
   std::array<double, 2 * terms + 2> shares;  // share^n/n!
   shares[0] = 1;
   for (std::size_t n = 1; n < shares.size(); ++n) shares[n] = shares[n - 1] * share / static_cast<double>(n);
-  const MatrixXd none = MatrixXd::Zero(powers[0].rows(), powers[0].cols());
-  Propagator p{.change = none, .response = {}};
+  Propagator p{.change = MatrixXd::Zero(powers[0].rows(), powers[0].cols()), .response = {}};
   for (int n = 1; n <= terms; ++n) p.change += shares[at(n)] * powers[at(n)];
   // `coefficient(m)`: that of the time to the power m, over m!, times tau^m.
   const auto response_to = [&](auto coefficient) {
-    MatrixXd sum = none;
+    MatrixXd sum = MatrixXd::Zero(powers[0].rows(), static_cast<Index>(pushed.size()));
     for (int n = 0; n < terms; ++n) {
       double factor = 0;
       for (int m = 0; m < terms; ++m) factor += coefficient(m) * shares[at(n + m + 1)];
-      sum += tau * factor * powers[at(n)];
+      sum += tau * factor * powers[at(n)](Eigen::all, pushed);
     }
     p.response.push_back(std::move(sum));
   };
@@ -162,14 +161,26 @@ void LinearEquations::eliminate(const Dae& dae, double slowest) {
   if (regular_ && A_.rows() > 0) fastest_decay_ = std::max(0.0, -A_.eigenvalues().real().minCoeff());
 }
 
+VectorXd LinearEquations::drive(const VectorXd& z, const MatrixXd& pushes) const {
+  VectorXd both(z.size() + static_cast<Index>(pushed_.size()) * pushes.cols());
+  both << z, pushes(pushed_, Eigen::all).reshaped();
+  return both;
+}
+
 double LinearEquations::length(int level) const { return std::ldexp(shortest_, level); }
 
-void LinearEquations::respond_to(const TimeFunctions& functions, double interval) {
+void LinearEquations::respond_to(const TimeFunctions& functions, const MatrixXd& h, double interval) {
+  const VectorXd most = L_.cwiseAbs() * h.cwiseAbs().rowwise().sum();
+  std::vector<Index> pushed;
+  for (Index i = 0; i < most.size(); ++i) {
+    if (most(i) > 0) pushed.push_back(i);
+  }
   const double fastest = std::max(A_.size() == 0 ? 0 : A_.cwiseAbs().colwise().sum().maxCoeff(), functions.fastest());
   const double slow_enough = fastest > 0 ? numerics::arc_shortest / fastest : std::numeric_limits<double>::infinity();
   const bool fits = shortest_ <= interval && (shortest_ == slow_enough || interval <= length(numerics::arc_levels));
-  if (!levels_.empty() && functions_ == functions && fits) return;
+  if (!levels_.empty() && functions_ == functions && fits && std::includes(pushed_.begin(), pushed_.end(), pushed.begin(), pushed.end())) return;
   functions_ = functions;
+  pushed_ = std::move(pushed);
   levels_.clear();
   // A power of 2, so that another interval seldom asks for another length.
   shortest_ = std::min(slow_enough, std::exp2(std::floor(std::log2(interval))));
@@ -184,8 +195,8 @@ const LinearEquations::Level& LinearEquations::level(int k) {
 /// By Taylor's series, or by doubling steps of half the length.
 LinearEquations::Level LinearEquations::make_level(double of_step, const Level* half) const {
   Level level;
-  const Index r = A_.rows(), count = functions_.count();
-  level.states = MatrixXd::Zero(StepNodes::count * r, (count + 1) * r);
+  const Index r = A_.rows(), b = static_cast<Index>(pushed_.size()), count = functions_.count();
+  level.states = MatrixXd::Zero(StepNodes::count * r, r + count * b);
   level.functions.resize(count, StepNodes::count);
   std::vector<MatrixXd> powers;
   if (!half) powers = powers_of(A_, of_step);
@@ -196,9 +207,9 @@ LinearEquations::Level LinearEquations::make_level(double of_step, const Level* 
     rows.leftCols(r) = MatrixXd::Identity(r, r);
     if (i == 0) continue;
     Propagator& p = level.at_node[at(i) - 1];
-    p = half ? doubled(half->at_node[at(i) - 1], functions_, tau / 2) : short_propagator(powers, functions_, of_step, share);
+    p = half ? doubled(half->at_node[at(i) - 1], functions_, tau / 2) : short_propagator(powers, functions_, pushed_, of_step, share);
     rows.leftCols(r) += p.change;
-    for (Index j = 0; j < count; ++j) rows.middleCols((j + 1) * r, r) = p.response[at(static_cast<int>(j))];
+    for (Index j = 0; j < count; ++j) rows.middleCols(r + j * b, b) = p.response[at(static_cast<int>(j))];
   }
   return level;
 }

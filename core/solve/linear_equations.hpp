@@ -47,22 +47,24 @@ class LinearEquations {
   Eigen::Index states() const { return A_.rows(); }
   double fastest_decay() const { return fastest_decay_; }  ///< rate at which a motion dies away [1/s]
   Eigen::MatrixXd pushes(const Eigen::MatrixXd& h) const { return L_ * h; }       ///< L h
+  /// z, and below it the pushes of those states that h can push.
+  Eigen::VectorXd drive(const Eigen::VectorXd& z, const Eigen::MatrixXd& pushes) const;
   Eigen::MatrixXd of_given(const Eigen::MatrixXd& h) const { return of_given_ * h; }  ///< what h adds to d
   const Eigen::MatrixXd& of_states() const { return of_states_; }  ///< d = of_states z + of_given h
   const Eigen::MatrixXd& rate_of_states() const { return A_; }
 
-  /// Chooses the length of the shortest steps for these functions of time on an interval of this length [s].
-  void respond_to(const TimeFunctions& functions, double interval);
+  /// Chooses the length of the shortest steps for these functions of time, with coefficients h, on an interval of this length [s].
+  void respond_to(const TimeFunctions& functions, const Eigen::MatrixXd& h, double interval);
   const TimeFunctions& functions() const { return functions_; }
 
   /// Of z' = A z + sum of b_j times function j, at one time: z = z0 + change z0 + sum of response_j b_j.
   struct Propagator {
     Eigen::MatrixXd change;  ///< exp(A tau) - 1: what is small keeps its digits
-    std::vector<Eigen::MatrixXd> response;
+    std::vector<Eigen::MatrixXd> response;  ///< their columns: of the states that are pushed
   };
   struct Level {
     std::array<Propagator, StepNodes::last> at_node;  ///< of each node after the first
-    Eigen::MatrixXd states;       ///< by z and the columns of b below each other: the first state at all nodes, then the second, ...
+    Eigen::MatrixXd states;       ///< by `drive`: the first state at all nodes, then the second, ...
     StepNodes::Values functions;  ///< the functions of time
   };
   /// Steps of h0 2^k.
@@ -78,6 +80,7 @@ class LinearEquations {
   Eigen::MatrixXd A_, L_, of_states_, of_given_;
   double fastest_decay_ = 0;
   TimeFunctions functions_;
+  std::vector<Eigen::Index> pushed_;  ///< states that the inputs push, ascending
   double shortest_ = 0;  ///< h0 [s]
   std::vector<Level> levels_;
 };
