@@ -26,6 +26,48 @@ void add_product(double adjoint, double partial, double& sum) {
 
 }  // namespace
 
+bool RunTimeExpression::linear() const {
+  // Of each slot: 0 for what is constant between events, 1 for what is linear in the variables, 2 for the time and all else.
+  std::vector<int> degree(slots_.size(), 0);
+  for (std::size_t k = 0; k < variables_.size(); ++k) degree[k] = k + 1 < variables_.size() ? 1 : 2;
+  for (const Step& step : steps_) {
+    const int left = degree[step.left], right = degree[step.right], larger = std::max(left, right);
+    int of_result = 0;
+    switch (step.kind) {
+      case Step::Kind::plus:
+      case Step::Kind::minus:
+      case Step::Kind::min:
+      case Step::Kind::max:
+        of_result = larger;
+        break;
+      case Step::Kind::times:
+        of_result = std::min(2, left + right);
+        break;
+      case Step::Kind::over:
+        of_result = right == 0 ? left : 2;
+        break;
+      case Step::Kind::negative:
+      case Step::Kind::abs:
+      case Step::Kind::copy:
+        of_result = left;
+        break;
+      case Step::Kind::power:
+        of_result = larger == 0 ? 0 : 2;
+        break;
+      case Step::Kind::call:
+        of_result = left == 0 && (step.arguments < 2 || right == 0) ? 0 : 2;
+        break;
+      case Step::Kind::unless_jump:
+      case Step::Kind::jump:
+        continue;
+      default:  // what compares, and what rounds
+        break;
+    }
+    degree[step.to] = std::max(degree[step.to], of_result);
+  }
+  return degree[result_] < 2;
+}
+
 RunTimeExpression::Workspace& RunTimeExpression::start(std::span<const double> arguments) const {
   static thread_local Workspace work;
   const auto grow = [](auto& buffer, std::size_t size) {

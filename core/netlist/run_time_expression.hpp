@@ -44,6 +44,7 @@ class RunTimeExpression final : public SwitchedFunction {
   std::size_t switches() const override { return switch_count_; }
   /// Whether the text names the variable.
   bool uses(std::size_t variable) const override { return uses_[variable]; }
+  bool linear() const override;
 
   std::optional<double> value(std::span<const double> arguments, std::span<const double> sides = {}) const override;
   std::optional<double> value(std::span<const double> arguments, std::span<const double> sides, std::span<double> partials) const override;

@@ -25,6 +25,8 @@ class SwitchedFunction {
   virtual std::size_t switches() const = 0;
   /// Whether the function depends on the variable.
   virtual bool uses(std::size_t variable) const = 0;
+  /// Whether the function is linear in all variables where the sides are held, and does not depend on the last one, the time, but for them.
+  virtual bool linear() const { return false; }
   /// The name of a variable in messages.
   virtual std::string variable(std::size_t k) const { return "u" + std::to_string(k + 1); }
   /// As messages and drawings show it.

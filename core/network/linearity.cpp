@@ -48,7 +48,7 @@ std::optional<NotLinear> not_linear(const Network& network) {
   if (auto found = curved(network.deflection_laws, network.deflections)) return found;
   if (auto found = curved(network.rate_laws, network.rates)) return found;
   for (const Blocks::Block& block : network.blocks.blocks) {
-    if (block.function) return wrong(block.element, fmt::format("`{}` computes `{}`", name_of(block.element), block.function->text()));
+    if (block.function && !block.function->linear()) return wrong(block.element, fmt::format("`{}` computes `{}`", name_of(block.element), block.function->text()));
     if (block.law.delay > 0) return wrong(block.element, fmt::format("`{}` delays a signal", name_of(block.element)));
   }
   for (const Network::Slider& slider : network.sliders) {
