@@ -1,8 +1,10 @@
 #include "core/dae/time_functions.hpp"
 
 #include <Eigen/QR>
-#include <array>
+#include <algorithm>
 #include <cmath>
+
+#include "core/base/numerics.hpp"
 
 namespace rheonet {
 
@@ -10,11 +12,20 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+TimeFunctions TimeFunctions::within(double interval) const {
+  TimeFunctions result{.degree = degree, .omegas = {}};
+  for (const double omega : omegas) {
+    if (omega * interval > numerics::arc_slow_phase) result.omegas.push_back(omega);
+    else result.degree = std::max(result.degree, numerics::arc_slow_terms);
+  }
+  return result;
+}
+
 VectorXd TimeFunctions::at(double tau) const {
-  const std::array<double, 3> powers{1, tau, tau * tau / 2};
   VectorXd values(count());
-  Index k = 0;
-  for (; k <= degree; ++k) values(k) = powers[static_cast<std::size_t>(k)];
+  values(0) = 1;
+  Index k = 1;
+  for (; k <= degree; ++k) values(k) = values(k - 1) * tau / static_cast<double>(k);
   for (const double omega : omegas) {
     values(k++) = std::sin(omega * tau);
     values(k++) = std::cos(omega * tau);
@@ -24,10 +35,10 @@ VectorXd TimeFunctions::at(double tau) const {
 
 MatrixXd TimeFunctions::shifted(const MatrixXd& c, double by) const {
   MatrixXd moved = c;
-  if (degree >= 1) moved.col(0) += by * c.col(1);
-  if (degree == 2) {
-    moved.col(0) += by * by / 2 * c.col(2);
-    moved.col(1) += by * c.col(2);
+  double power = 1;  // by^n/n!
+  for (Index n = 1; n <= degree; ++n) {
+    power *= by / static_cast<double>(n);
+    moved.leftCols(degree + 1 - n) += power * c.middleCols(n, degree + 1 - n);
   }
   Index k = degree + 1;
   for (const double omega : omegas) {

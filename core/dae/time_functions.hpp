@@ -5,7 +5,7 @@
 
 namespace rheonet {
 
-/// The functions of time of which inputs are sums: 1, tau, tau^2/2 up to a degree, then the sine and the cosine of each angular frequency.
+/// The functions of time of which inputs are sums: tau^k/k! up to a degree, then the sine and the cosine of each angular frequency.
 /// Coefficients are columns of a matrix, in this order.
 struct TimeFunctions {
   int degree = 0;
@@ -14,6 +14,9 @@ struct TimeFunctions {
   Eigen::Index count() const { return degree + 1 + 2 * static_cast<Eigen::Index>(omegas.size()); }
   double fastest() const { return omegas.empty() ? 0 : omegas.back(); }  ///< rad/s
   bool operator==(const TimeFunctions&) const = default;
+
+  /// For times from 0 to the end of an interval: sines that are slow beside it are polynomials there, as they could not be told from those.
+  TimeFunctions within(double interval) const;
 
   Eigen::VectorXd at(double tau) const;
   /// Coefficients for time counted from `by` on.

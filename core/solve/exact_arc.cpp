@@ -52,18 +52,18 @@ struct ExactArc::Implementation {
     return matrix;
   }
 
-  /// Finds or makes the equations of the present modes of the laws.
-  void find_equations() {
+  /// Finds or makes the equations of the present modes of the laws, under these functions of time.
+  void find_equations(const TimeFunctions& functions) {
     dae.jacobian(begin.t, 0, y0.data(), at_rest.data(), entries.data());
     MatrixXd K = dense();
     dae.consistency_matrix(begin.t, y0.data(), entries.data());
     MatrixXd both = dense();
     for (present = 0; present < known.size(); ++present) {
-      if (equations().are(K, both)) return;
+      if (equations().functions() == functions && equations().are(K, both)) return;
     }
     if (known.size() >= numerics::arc_modes_kept) known.clear();
     present = known.size();
-    known.emplace_back(dae, std::move(K), std::move(both), length);
+    known.emplace_back(dae, std::move(K), std::move(both), functions, length);
     next_level = 0;
   }
 
@@ -180,16 +180,17 @@ ExactArc::~ExactArc() = default;
 bool ExactArc::begin(TimePoint t, const std::vector<double>& y, double length) {
   Implementation& s = *impl_;
   if (s.dae.unknowns() == 0 || !std::isfinite(length)) return false;
-  const std::optional<TimeFunctions> functions = s.dae.inputs().time_functions();
+  std::optional<TimeFunctions> functions = s.dae.inputs().time_functions();
   if (!functions) return false;
+  functions = functions->within(length);
   s.begin = t;
   s.length = length;
   s.y0 = Eigen::Map<const VectorXd>(y.data(), s.n);
-  s.find_equations();
+  s.find_equations(*functions);
   LinearEquations& e = s.equations();
   if (!e.regular()) return false;
   if (length * e.fastest_decay() > numerics::arc_decays || !s.find_given(*functions)) return false;
-  e.respond_to(*functions, s.given, length);
+  e.respond_to(s.given, length);
   if (length > numerics::arc_steps * e.length(0)) return false;
   s.z = VectorXd::Zero(e.states());
   s.from = s.step = 0;

@@ -85,8 +85,11 @@ Propagator doubled(const Propagator& p, const TimeFunctions& functions, double t
   Propagator twice{.change = p.change * p.change + 2 * p.change, .response = {}};
   for (const MatrixXd& response : p.response) twice.response.push_back(p.change * response + 2 * response);
   // The functions in the second half, by those in the first.
-  if (functions.degree >= 1) twice.response[1] += tau * p.response[0];
-  if (functions.degree == 2) twice.response[2] += tau * p.response[1] + tau * tau / 2 * p.response[0];
+  double power = 1;  // tau^n/n!
+  for (int n = 1; n <= functions.degree; ++n) {
+    power *= tau / n;
+    for (int k = n; k <= functions.degree; ++k) twice.response[at(k)] += power * p.response[at(k - n)];
+  }
   std::size_t k = at(functions.degree) + 1;
   for (const double omega : functions.omegas) {
     const double sine = std::sin(omega * tau), half = std::sin(omega * tau / 2), less = -2 * half * half;  // the cosine less 1
@@ -137,7 +140,8 @@ MatrixXd scaled_inverse(const MatrixXd& matrix) {
 
 }  // namespace
 
-LinearEquations::LinearEquations(const Dae& dae, MatrixXd K, MatrixXd both, double interval) : K_(std::move(K)), both_(std::move(both)) { eliminate(dae, 1 / interval); }
+LinearEquations::LinearEquations(const Dae& dae, MatrixXd K, MatrixXd both, TimeFunctions functions, double interval)
+    : K_(std::move(K)), both_(std::move(both)), functions_(std::move(functions)) { eliminate(dae, 1 / interval); }
 
 void LinearEquations::eliminate(const Dae& dae, double slowest) {
   const Index n = K_.rows();
@@ -169,17 +173,16 @@ VectorXd LinearEquations::drive(const VectorXd& z, const MatrixXd& pushes) const
 
 double LinearEquations::length(int level) const { return std::ldexp(shortest_, level); }
 
-void LinearEquations::respond_to(const TimeFunctions& functions, const MatrixXd& h, double interval) {
+void LinearEquations::respond_to(const MatrixXd& h, double interval) {
   const VectorXd most = L_.cwiseAbs() * h.cwiseAbs().rowwise().sum();
   std::vector<Index> pushed;
   for (Index i = 0; i < most.size(); ++i) {
     if (most(i) > 0) pushed.push_back(i);
   }
-  const double fastest = std::max(A_.size() == 0 ? 0 : A_.cwiseAbs().colwise().sum().maxCoeff(), functions.fastest());
+  const double fastest = std::max(A_.size() == 0 ? 0 : A_.cwiseAbs().colwise().sum().maxCoeff(), functions_.fastest());
   const double slow_enough = fastest > 0 ? numerics::arc_shortest / fastest : std::numeric_limits<double>::infinity();
   const bool fits = shortest_ <= interval && (shortest_ == slow_enough || interval <= length(numerics::arc_levels));
-  if (!levels_.empty() && functions_ == functions && fits && std::includes(pushed_.begin(), pushed_.end(), pushed.begin(), pushed.end())) return;
-  functions_ = functions;
+  if (!levels_.empty() && fits && std::includes(pushed_.begin(), pushed_.end(), pushed.begin(), pushed.end())) return;
   pushed_ = std::move(pushed);
   levels_.clear();
   // A power of 2, so that another interval seldom asks for another length.

@@ -36,7 +36,7 @@ const StepNodes& step_nodes();
 class LinearEquations {
  public:
   /// `both` has the rows of M where there are derivatives, else those of K. `interval`: a time for which they are to be solved [s].
-  LinearEquations(const Dae& dae, Eigen::MatrixXd K, Eigen::MatrixXd both, double interval);
+  LinearEquations(const Dae& dae, Eigen::MatrixXd K, Eigen::MatrixXd both, TimeFunctions functions, double interval);
 
   bool are(const Eigen::MatrixXd& K, const Eigen::MatrixXd& both) const { return K_ == K && both_ == both; }
   /// False if they have no unique solution.
@@ -53,8 +53,8 @@ class LinearEquations {
   const Eigen::MatrixXd& of_states() const { return of_states_; }  ///< d = of_states z + of_given h
   const Eigen::MatrixXd& rate_of_states() const { return A_; }
 
-  /// Chooses the length of the shortest steps for these functions of time, with coefficients h, on an interval of this length [s].
-  void respond_to(const TimeFunctions& functions, const Eigen::MatrixXd& h, double interval);
+  /// Chooses the length of the shortest steps for these coefficients of the functions of time, on an interval of this length [s].
+  void respond_to(const Eigen::MatrixXd& h, double interval);
   const TimeFunctions& functions() const { return functions_; }
 
   /// Of z' = A z + sum of b_j times function j, at one time: z = z0 + change z0 + sum of response_j b_j.

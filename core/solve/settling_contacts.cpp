@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/base/index.hpp"
 #include "core/base/numerics.hpp"
@@ -40,20 +41,22 @@ void Tolerances::see_hops(const Dae::View& view, bool restarts) {
 }
 
 std::vector<int> settling_contacts(System& system, const Tolerances& tolerances, const Settling& settling, const std::vector<double>& y,
-                                   const std::vector<double>& yp) {
+                                   const std::vector<double>& yp, std::vector<double>& closing) {
   Dae& dae = system.dae;
   const Network& network = dae.network();
   std::vector<int> slow;
-  std::vector<double> speed;  // after the impact
+  std::vector<double> speed, kept;  // after the impact; share that each hop keeps
   for (std::size_t k = 0; k < network.sliders.size(); ++k) {
     const Network::Slider& slider = network.sliders[k];
     const int side = slider.contact && !system.structure.stuck[k] ? network.contact_of(slider) : 0;
-    if (side == 0 || !(slider.contact->restitution < 1)) continue;
+    if (side == 0) continue;
     const Dae::View& view = dae.view_again(settling.t, y.data(), yp.data());
-    const double w = side * (view.velocity[at(slider.branch.a)] - view.velocity[at(slider.branch.b)]) * slider.contact->restitution;
-    if (w > numerics::settled_hops * settling.accuracy * tolerances.flow_seen(slider.gauge)) continue;
+    const double e = slider.contact->restitution, closes = side * (view.velocity[at(slider.branch.a)] - view.velocity[at(slider.branch.b)]), w = closes * e;
+    const double before = std::exchange(closing[k], closes), keeps = e < 1 ? e : before > 0 ? closes / before : 1;
+    if (!(keeps < 1) || w > numerics::settled_hops * settling.accuracy * tolerances.flow_seen(slider.gauge)) continue;
     slow.push_back(static_cast<int>(k));
     speed.push_back(w);
+    kept.push_back(keeps);
   }
   if (slow.empty()) return {};
   const double before = system.integrator.previous_time();
@@ -65,8 +68,7 @@ std::vector<int> settling_contacts(System& system, const Tolerances& tolerances,
   std::vector<int> result;
   for (std::size_t i = 0; i < slow.size(); ++i) {
     if (!(now[i] > 0)) continue;
-    const double e = network.sliders[at(slow[i])].contact->restitution;
-    const double hops = 2 * speed[i] / (now[i] * (1 - e));
+    const double hops = 2 * speed[i] / (now[i] * (1 - kept[i]));
     const double falls = settling.t > before ? std::max(0.0, then[i] - now[i]) / (settling.t - before) : 0;
     if (hops <= numerics::settled_hops * settling.accuracy * settling.length && falls * hops <= now[i] / 2) result.push_back(slow[i]);
   }

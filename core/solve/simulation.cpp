@@ -49,6 +49,7 @@ class Run {
     modes_.slider.assign(network.sliders.size(), Modes::stuck);
     modes_.b_drives.assign(network.trains.size(), 0);
     slider_force_.assign(network.sliders.size(), 0);
+    closing_.assign(network.sliders.size(), 0);
     inputs_.history().disregard(numerics::continuous_jump * settings.accuracy);
   }
 
@@ -360,7 +361,7 @@ class Run {
     leave(t);
     Fired fired = take_events(*system_, t, y_, yp_);
     fired_ = std::move(fired.elements);
-    fired.sudden.settles = settling_contacts(*system_, tolerances_, {t, settings_.accuracy, settings_.stop}, y_, yp_);
+    fired.sudden.settles = settling_contacts(*system_, tolerances_, {t, settings_.accuracy, settings_.stop}, y_, yp_, closing_);
     const bool jumps = inputs_.blocks().fire(fired.limits);
     cross(t, jumps, fired.sudden);
   }
@@ -467,6 +468,7 @@ class Run {
   std::vector<double> slider_force_;
   double left_ = 0;  ///< time of `state_` [s]
   bool ended_ = false;   ///< by `simulate.stop_when`, at the last event
+  std::vector<double> closing_;      ///< velocity with which the contact of each slider has closed last [m/s]
   double impact_ = -1, hopped_ = 0;  ///< time of the last impact after which a contact was thrown back, and of the one before [s]
   bool stopped_ = false; ///< the last interval ended with a step that the integrator can continue from
   long steps_ = 0;       ///< in the last interval
