@@ -243,9 +243,10 @@ void SteadyStateSolver::report_acceleration(std::vector<NodeId> nodes) const {
     if (there(force.a) || there(force.b)) loads.push_back(network_.scene->elements[at(force.element)].name);
   }
   throw SimulationError(network_.spot_of_node(nodes.front()), fmt::format(
-      "{}: what is at node{} {} cannot take the force{} {} for ever, and would go ever faster; give it a dashpot or more "
+      "{}: what is at node{} {} cannot take {} for ever, and would go ever faster; give it a dashpot or more "
       "friction, or apply less force",
-      kind(), names.size() > 1 ? "s" : "", format_list(names), loads.size() > 1 ? "s" : "", format_list(loads)));
+      kind(), names.size() > 1 ? "s" : "", format_list(names),
+      loads.empty() ? "the forces of what stands beside it" : fmt::format("the force{} {}", loads.size() > 1 ? "s" : "", format_list(loads))));
 }
 
 /// Notes the start values that the steady state contradicts.

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 
 #include "core/base/disjoint_sets.hpp"
@@ -197,12 +198,19 @@ bool StickForces::solve_with_losses(double t, Shared& shared, std::vector<double
   if (!solve()) return false;
   double size = 0;
   for (const double load : shared.load) size = std::max(size, std::abs(load));
-  TrainForceTrials trials(network_, inputs_, found, size);
-  while (!trials.endless()) {
-    const std::vector<double> trial = trials.trial();
-    bounds(&trial);
-    if (!solve()) return false;
-    if (trials.agree(found)) return true;
+  // Absent if no trials agree.
+  const auto follow = [&](TrainForceTrials trials) -> std::optional<bool> {
+    while (!trials.endless()) {
+      const std::vector<double> trial = trials.trial();
+      bounds(&trial);
+      if (!solve()) return false;
+      if (trials.agree(found)) return true;
+    }
+    return {};
+  };
+  if (const auto done = follow({network_, inputs_, found, size})) return *done;
+  for (TrainForceTrials& trials : TrainForceTrials::around(network_, inputs_, size)) {
+    if (const auto done = follow(std::move(trials))) return *done;
   }
   report_losses(network_, at_time(*network_.scene, t));
 }

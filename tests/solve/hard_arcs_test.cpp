@@ -298,4 +298,33 @@ TEST_CASE("arcs: pairs of springs and sliders in a bundle, behind a mass") {
   CHECK_LE(largest_error(a, b), 1e-10);
 }
 
+TEST_CASE("arcs: sines so slow that they are hardly more than straight lines") {
+  // Sines of 1e-6 to 0.1 Hz push a damped oscillator from rest, and let it follow. Each has its closed form.
+  constexpr double m = 1, k = 100, c = 2, F = 1.4;
+  const double decay = c / (2 * m), own = std::sqrt(k / m - decay * decay);
+  for (const double f : {1e-6, 1e-4, 1e-3, 1e-2, 0.02, 0.03, 0.1}) {
+    CAPTURE(f);
+    const double w = 2 * M_PI * f, spring = k - m * w * w, square = spring * spring + c * c * w * w;
+    const double S = F * spring / square, C = -F * c * w / square;  // S sin(w t) + C cos(w t) at the end
+    const Found of = found(oscillator_with(m, k) + fmt::format("c = {{ type = \"dashpot\", between = [\"a\", \"ground\"], damping = {} }}\nF = {{ type = \"force\", at = \"a\", force = {{ sine = {}, frequency = {:.17g} }} }}", c, F, f), "", 3);
+    CHECK_LE(error_of(of.rows, "a.position",
+                      [=](double t) { return S * std::sin(w * t) + C * std::cos(w * t) - std::exp(-decay * t) * (C * std::cos(own * t) + (decay * C + w * S) / own * std::sin(own * t)); }),
+             f < 1e-5 ? 3e-11 : 3e-12);
+  }
+}
+
+TEST_CASE("arcs: an elastic ball that friction slows comes to rest, after infinitely many bounces") {
+  // It falls at (F - Fc)/m, and rises at (F + Fc)/m: each bounce keeps r = (F - Fc)/(F + Fc) of the height.
+  constexpr double m = 1.1, F = 2.2, Fc = 1, h = 0.9;
+  const double down = (F - Fc) / m, up = (F + Fc) / m, r = down / up, fall = std::sqrt(2 * h / down);
+  // After a fall from height H it rises for sqrt(2 r H/up) and falls for sqrt(2 r H/down).
+  const double rest = fall + fall * (std::sqrt(r) * std::sqrt(down / up) + std::sqrt(r)) / (1 - std::sqrt(r));
+  const Found of = found(fmt::format("m = {{ type = \"mass\", at = \"a\", mass = {} }}\nw = {{ type = \"force\", at = \"a\", force = {} }}\n"
+                                     "floor = {{ type = \"stop\", between = [\"a\", \"ground\"], lower = 0, stiffness = \"inf\", restitution = 1 }}\n"
+                                     "f = {{ type = \"slider\", between = [\"a\", \"ground\"], coulomb = {} }}", m, -F, Fc),
+                         fmt::format("a = {{ position = {} }}", h), 2 * rest);
+  CHECK_LE(std::abs(of.events.at("floor").back() - rest), 1e-6 * 2 * rest);
+  CHECK_EQ(of.rows["a.velocity"].back(), 0);
+}
+
 }  // namespace rheonet::test

@@ -96,7 +96,7 @@ Passage cost_of(const Scene& scene, const Explanation& e) {
   const Explanation::Cost& c = e.cost;
   Passage passage{.heading = "cost"};
   const auto add = [&passage](std::string text) { passage.lines.push_back(plain(std::move(text))); };
-  add(c.why_ida.empty() ? "solved in closed form between events: laws and inputs are linear there" : "solved by SUNDIALS IDA: " + c.why_ida);
+  add(c.why_ida.empty() ? "solved in closed form between events: laws and inputs are linear there" : "solved by SUNDIALS IDA: " + c.why_ida + (e.structure.integrations > 1 ? "; parts without it by themselves" : ""));
   if (c.unknowns > 0)
     add(fmt::format("entries of the Jacobian: {}, factorised {}", c.entries, c.sparse ? "as a sparse matrix (KLU)" : "as a dense matrix"));
   std::vector<std::string> times;
