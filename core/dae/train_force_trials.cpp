@@ -35,7 +35,7 @@ bool TrainForceTrials::agree(const std::vector<double>& found) {
   const double off = miss.lpNorm<Eigen::Infinity>(), before = std::exchange(off_, off);
   if (off <= numerics::balance_roundoff * size && (off <= numerics::equation_roundoff * size || off >= before)) return true;
   Eigen::VectorXd next = points_.next(trial_, trial_ + miss);
-  if (alone_) enclose(miss, next);
+  if (alone_ && count_ >= numerics::free_loss_trials) enclose(miss, next);
   if (count_++ == 0 && near_) next = trial_ * (1 + numerics::near_trial);
   trial_ = std::move(next);
   return false;
