@@ -63,7 +63,7 @@ unpack_sundials_headers() {
 
 download() { (cd "$1" && apt-get download -o Acquire::Retries=3 "$2"); }
 
-# build TARGET: an optimised build in build/release.
+# build TARGET...: an optimised build in build/release.
 build() {
   say "Configuring in build/release (log: build/configure.log)"
   local generator=()
@@ -73,6 +73,6 @@ build() {
     cat build/configure.log >&2
     exit 1
   }
-  say "Building $1"
-  cmake --build --preset release --target "$1" --parallel "$(nproc)"
+  say "Building $*"
+  cmake --build --preset release --target "$@" --parallel "$(nproc)"
 }

@@ -6,14 +6,13 @@
 #include <cerrno>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <cstring>
 #include <exception>
 #include <future>
 #include <memory>
-#include <new>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <tuple>
 #include <utility>
 
@@ -21,36 +20,18 @@
 #include "core/network/network.hpp"
 #include "core/network/transmission.hpp"
 #include "core/result/csv.hpp"
+#include "core/result/memory_file.hpp"
 
 namespace rheonet {
 
 namespace {
 
-/// An output stream into memory.
-class Spool {
- public:
-  Spool() : file_(open_memstream(&text_, &size_)) {
-    if (!file_) throw std::bad_alloc();
-  }
-  ~Spool() {
-    std::fclose(file_);
-    std::free(text_);
-  }
-  Spool(const Spool&) = delete;
-  Spool& operator=(const Spool&) = delete;
-
-  std::FILE* file() { return file_; }
-  void copy_to(std::FILE* out, const char* what) {
-    if (!out || std::fflush(file_) != 0 || size_ == 0) return;
-    if (std::fwrite(text_, 1, size_, out) == size_ && std::fflush(out) == 0) return;
-    throw WriteError(std::string(what) + " cannot be written: " + std::strerror(errno));
-  }
-
- private:
-  char* text_ = nullptr;
-  std::size_t size_ = 0;
-  std::FILE* file_;
-};
+void copy(MemoryFile& from, std::FILE* to, const char* what) {
+  const std::string_view text = from.text();
+  if (!to || text.empty()) return;
+  if (std::fwrite(text.data(), 1, text.size(), to) == text.size() && std::fflush(to) == 0) return;
+  throw WriteError(std::string(what) + " cannot be written: " + std::strerror(errno));
+}
 
 /// Writes the first columns of rows, the scene's own records, as they come.
 class FirstColumns {
@@ -78,19 +59,19 @@ class FirstColumns {
 struct Attempt {
   double tolerance = 0;
   ReferenceSolution reference;
-  Spool rows, events;
+  MemoryFile rows, events;
   std::optional<ReferenceSolution> other;  ///< a run of another order, if round-off matters
   std::exception_ptr failure;      ///< null if the run is complete
 
   void hand_over(const Scene& scene, const RunSettings& settings) {
     // A failure to write the events must not cost the rows.
     try {
-      events.copy_to(settings.events, "the events");
+      copy(events, settings.events, "the events");
     } catch (const WriteError&) {
-      rows.copy_to(settings.csv, "the results");
+      copy(rows, settings.csv, "the results");
       throw;
     }
-    rows.copy_to(settings.csv, "the results");
+    copy(rows, settings.csv, "the results");
     if (!settings.row) return;
     const FirstColumns own(scene, nullptr);
     const Trajectory& trajectory = reference.trajectory;

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cerrno>
 #include <cstdlib>
 #include <exception>
 #include <map>
@@ -12,54 +11,35 @@
 #include <mutex>
 #include <optional>
 #include <set>
-#include <system_error>
+#include <string>
+#include <string_view>
 #include <thread>
 #include <utility>
 
 #include "core/base/format_list.hpp"
 #include "core/network/network.hpp"
 #include "core/result/csv.hpp"
+#include "core/result/memory_file.hpp"
 
 namespace rheonet {
 
 namespace {
 
-/// A file in memory.
-class Text {
- public:
-  Text() : file_(open_memstream(&text_, &size_)) {
-    if (!file_) throw std::system_error(errno, std::generic_category(), "a list of events");
+/// The lines of a text, without the first one.
+std::vector<std::string> lines_after_header(std::string_view text) {
+  std::vector<std::string> result;
+  for (std::size_t begin = 0, end = 0; begin < text.size(); begin = end + 1) {
+    end = std::min(text.find('\n', begin), text.size());
+    if (begin > 0) result.emplace_back(text.substr(begin, end - begin));
   }
-  ~Text() {
-    std::fclose(file_);
-    std::free(text_);
-  }
-  Text(const Text&) = delete;
-  Text& operator=(const Text&) = delete;
-  std::FILE* file() { return file_; }
-  /// Its lines, without the first one.
-  std::vector<std::string> lines() {
-    std::fflush(file_);
-    std::vector<std::string> result;
-    const std::string_view all(text_, size_);
-    for (std::size_t begin = 0, end = 0; begin < all.size(); begin = end + 1) {
-      end = std::min(all.find('\n', begin), all.size());
-      if (begin > 0) result.emplace_back(all.substr(begin, end - begin));
-    }
-    return result;
-  }
-
- private:
-  char* text_ = nullptr;
-  std::size_t size_ = 0;
-  std::FILE* file_;
-};
+  return result;
+}
 
 /// Results of a subscene.
 struct Outcome {
   std::vector<double> times;
   std::vector<std::vector<double>> rows;
-  std::unique_ptr<Text> events;
+  std::unique_ptr<MemoryFile> events;
   Summary summary;
   std::exception_ptr failure;
   double reached = 0;   ///< fraction of the run done; for the thread of this subscene alone
@@ -126,7 +106,7 @@ class SideBySide {
     };
     try {
       if (settings_.events) {
-        outcome.events = std::make_unique<Text>();
+        outcome.events = std::make_unique<MemoryFile>();
         settings.events = outcome.events->file();
       }
       outcome.summary = run_whole(partition_.subscenes[k].scene, settings);
@@ -173,7 +153,7 @@ class SideBySide {
     if (failed) last = scene_.start + failed->reached * (scene_.stop - scene_.start) * (1 + time_rounding);
     for (const Outcome& outcome : outcomes_) {
       if (!outcome.events) continue;
-      for (std::string& line : outcome.events->lines()) {
+      for (std::string& line : lines_after_header(outcome.events->text())) {
         const double time = std::strtod(line.c_str(), nullptr);
         if ((!failed || &outcome == failed || time <= last) && told.insert(line).second) lines.emplace_back(time, std::move(line));
       }

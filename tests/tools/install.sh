@@ -43,6 +43,11 @@ stop = 1
 output = { points = 3 }
 TOML
 env -u RHEONET_LIBRARY "$folder/prefix/bin/rheonet" run -q scene.toml >/dev/null
+# So does the Python package.
+packages=$folder/prefix/lib/python3/dist-packages
+if [ -d "$packages/rheonet" ]; then
+  env -u RHEONET_LIBRARY PYTHONPATH="$packages" /usr/bin/python3 -c 'import rheonet; assert len(rheonet.load("scene.toml").run().time) == 3'
+fi
 "$folder/prefix/bin/rheonet-serve" serve --help >/dev/null  # it finds its libraries, and is found:
 "$folder/prefix/bin/rheonet" serve "$folder/none" 2>serve.log && exit 1
 grep -Eq 'cannot serve|its web pages are missing' serve.log || { cat serve.log; exit 1; }

@@ -30,7 +30,7 @@ functions_twice() { nm --defined-only "$@" | awk '$2 == "T" { gsub(/B5cxx11/, ""
 report() { echo "$1:"; sed 's/^/  /'; failed=1; }
 
 headers | "${compile[@]}" >"$folder/log" 2>&1 || report "two definitions in headers" <"$folder/log"
-types_outside core/*/*.cpp components/*.cpp tools/{plot,draw,rheonet,report,serve}/*.cpp >"$folder/log"
+types_outside core/*/*.cpp components/*.cpp tools/{plot,draw,python,rheonet,report,serve}/*.cpp >"$folder/log"
 [ ! -s "$folder/log" ] || report "definitions in a .cpp file that others could repeat (move them into \`namespace {\`, or into a header)" <"$folder/log"
 functions_twice "$library" "$program" >"$folder/log"
 [ ! -s "$folder/log" ] || report "functions that differ only in what they return" <"$folder/log"

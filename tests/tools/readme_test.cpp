@@ -177,7 +177,7 @@ TEST_CASE("README.md begins with the two commands, and CI runs the second") {
 TEST_CASE("every link of the project's pages leads somewhere") {
   const std::regex link(R"(\]\(([^)#:]+)(#[^)]*)?\))");
   int links = 0;
-  for (const std::string page : {"README.md", "CHANGELOG.md", "tools/rheonet/README.md", "tools/web/README.md", "core/netlist/README.md", "core/netlist/expressions.md", "components/README.md", "netlists/README.md", "netlists/glossary.md",
+  for (const std::string page : {"README.md", "CHANGELOG.md", "tools/rheonet/README.md", "tools/python/README.md", "tools/web/README.md", "core/netlist/README.md", "core/netlist/expressions.md", "components/README.md", "netlists/README.md", "netlists/glossary.md",
                                  "netlists/library/README.md", "netlists/teaching/README.md", "netlists/teaching/demos.md",
                                  "netlists/thesis/README.md", "netlists/thesis/composed-or-combined.md", "netlists/hard/README.md"}) {
     CAPTURE(page);

@@ -3,7 +3,6 @@
 #include <unistd.h>
 
 #include <cstdio>
-#include <cstdlib>
 #include <fstream>
 #include <iostream>
 #include <new>
@@ -12,6 +11,7 @@
 
 #include "core/network/component.hpp"
 #include "core/network/error.hpp"
+#include "core/result/memory_file.hpp"
 #include "core/result/run.hpp"
 #include "tools/plot/compose.hpp"
 #include "tools/plot/mistake.hpp"
@@ -97,21 +97,15 @@ void csv(const json& task) {
   const ReadResult scene = read(sent(task));
   tell(report::mistakes_message(scene));
   if (!scene.scene) return;
-  char* text = nullptr;
-  std::size_t size = 0;
-  std::FILE* const file = ::open_memstream(&text, &size);
-  if (file == nullptr) throw std::bad_alloc();
+  MemoryFile rows;
   std::string failure;
   try {
-    run(*scene.scene, {.csv = file});
+    run(*scene.scene, {.csv = rows.file()});
   } catch (const SimulationError& error) {
     failure = error.what();
   }
-  std::fclose(file);
-  const std::string rows(text, size);
-  std::free(text);
   if (failure.empty())
-    tell_file("text/csv", rows);
+    tell_file("text/csv", std::string(rows.text()));
   else
     tell(report::to_line({{"kind", "failed"}, {"message", failure}}));
 }

@@ -1,0 +1,102 @@
+"""Data frames, data sets, sweeps, and what Jupyter shows."""
+
+import signal
+import threading
+import time
+import xml.etree.ElementTree
+
+import numpy as np
+import pytest
+
+import rheonet
+from test_scene import FRICTION, OSCILLATOR, endless, k, x0
+
+
+def test_a_data_frame():
+    result = rheonet.load(OSCILLATOR).run()
+    frame = result.to_dataframe()
+    assert list(frame) == ["a.position", "k1.force"] and frame.index.name == "time"
+    assert frame.attrs == {"title": "An oscillator", "units": {"a.position": "m", "k1.force": "N"}}
+    assert np.array_equal(frame["k1.force"], result["k1.force"]) and np.array_equal(frame.index, result.time)
+
+
+def test_a_data_set():
+    result = rheonet.load(OSCILLATOR).run()
+    data = result.to_xarray()
+    assert dict(data.sizes) == {"time": 201} and data.attrs["title"] == "An oscillator"
+    assert data["k1.force"].units == "N" and data.time.units == "s"
+    assert np.shares_memory(data["k1.force"].values, result["k1.force"])
+
+
+def test_a_sweep_has_the_parameters_as_coordinates():
+    data = rheonet.load(OSCILLATOR).sweep({"k1.stiffness": ["200 N/m", "800 N/m"], "m1.mass": [0.5, 2, 8]})
+    assert dict(data.sizes) == {"k1.stiffness": 2, "m1.mass": 3, "time": 201}
+    assert data["k1.stiffness"].units == "N/m" and data["a.position"].units == "m"
+    omega = np.sqrt(data["k1.stiffness"] / data["m1.mass"])
+    np.testing.assert_allclose(data["a.position"], x0 * np.cos(omega * data.time), atol=2e-9 * x0)
+
+
+def test_a_sweep_of_measures():
+    data = rheonet.loads(FRICTION).sweep({"s1.coulomb": [0.05, 0.1, 0.4]}, measure=["max(s1.force)", "time of crossing(s1.force, 0.02 N)"])
+    assert dict(data.sizes) == {"s1.coulomb": 3}
+    # The spring carries at most 200 N/m times 1 mm.
+    np.testing.assert_allclose(data["max(s1.force)"], [0.05, 0.1, 0.2], rtol=1e-5)
+    assert data["max(s1.force)"].units == "N"
+    np.testing.assert_allclose(data["time of crossing(s1.force, 0.02 N)"], np.arcsin(0.1) / (2 * np.pi), rtol=1e-5)
+
+
+def test_a_sweep_keeps_to_the_file_that_was_loaded(tmp_path):
+    file = tmp_path / "friction.toml"
+    file.write_text(FRICTION)
+    scene = rheonet.load(file, {"s1.coulomb": 0.05})
+    file.write_text(FRICTION.replace("1 mm", "0.1 mm"))
+    data = scene.sweep({"k1.stiffness": [100, 200]}, measure="max(s1.force)")
+    np.testing.assert_allclose(data["max(s1.force)"], 0.05, rtol=1e-5)  # 0.02 N with the other motion
+
+
+def test_ctrl_c_ends_a_sweep():
+    threading.Timer(0.3, signal.pthread_kill, [threading.get_ident(), signal.SIGINT]).start()
+    began = time.monotonic()
+    with pytest.raises(KeyboardInterrupt):
+        endless().sweep({"k1.stiffness": range(100, 120)})
+    assert time.monotonic() - began < 10
+
+
+def test_bad_use_of_a_sweep():
+    scene = rheonet.load(OSCILLATOR)
+    with pytest.raises(rheonet.NetlistError, match="at least 0, but is -2 kg") as caught:
+        scene.sweep({"m1.mass": [1, -2]})
+    assert caught.value.__notes__ == ["in the run with {'m1.mass': -2}"]
+    with pytest.raises(rheonet.NetlistError, match="colour"):
+        scene.sweep({"k1.stiffness": [1, 2]}, measure="max(k1.colour)")
+    with pytest.raises(ValueError, match="different times"):
+        scene.sweep({"simulate.stop": [1, 2]})
+    with pytest.raises(ValueError, match="at least one value"):
+        scene.sweep({"k1.stiffness": []})
+
+
+def test_an_explanation_is_data():
+    explained = rheonet.load(OSCILLATOR).explain()
+    assert explained["title"] == "An oscillator"
+    assert "m1" in next(effect["brought_by"] for effect in explained["effects"] if effect["effect"] == "inertia")
+
+
+def test_jupyter_shows_schematic_and_table():
+    scene = rheonet.load(OSCILLATOR)
+    drawing = xml.etree.ElementTree.fromstring(scene._repr_svg_())
+    assert drawing.tag.endswith("svg") and "k1" in "".join(drawing.itertext())
+    table = scene.run()._repr_html_()
+    xml.etree.ElementTree.fromstring(table)
+    assert "k1.force" in table and f"{k * x0:.6g}" in table
+    assert repr(scene) == "<rheonet.Scene 'An oscillator': 2 records, 0 s to 2 s>"
+    assert repr(scene.run()) == "<rheonet.Result 'An oscillator': 2 records, 201 rows>"
+
+
+def test_a_netlist_as_a_dictionary_points_to_the_entry():
+    with pytest.raises(rheonet.NetlistError) as caught:
+        rheonet.load({**OSCILLATOR, "elements": {**OSCILLATOR["elements"], "d1": {"type": "dashpod", "at": "ä \"quoted\"\\"}}})
+    error = caught.value
+    # Of the text: the title, [nodes] with one entry, [elements] with m1 and k1, then d1.
+    assert (error.file, error.line) == ("<dictionary>", 7)
+    assert "dashpot" in error.hint and '"d1" = { "type" = "dashpod"' in str(error)
+    assert rheonet.load({**OSCILLATOR, "title": "Öl, \"heiß\" \\ 😀"}).title == "Öl, \"heiß\" \\ 😀"

@@ -1,0 +1,56 @@
+"""Values of parameters: as TOML text, and as coordinates of a data set."""
+
+import json
+import numbers
+import re
+from collections.abc import Mapping
+
+
+def setting(value):
+    """A value as after `--set PATH=`, where text stands without quotes."""
+    return value if isinstance(value, str) else toml_value(value)
+
+
+def toml_value(value):
+    if hasattr(value, "tolist"):  # NumPy
+        value = value.tolist()
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, numbers.Real):
+        return repr(value) if isinstance(value, int) else repr(float(value))
+    if isinstance(value, str):
+        return quoted(value)
+    if isinstance(value, Mapping):
+        return "{ " + ", ".join(f"{quoted(str(key))} = {toml_value(item)}" for key, item in value.items()) + " }"
+    if isinstance(value, (list, tuple)):
+        return "[" + ", ".join(map(toml_value, value)) + "]"
+    raise TypeError(f"a netlist holds numbers, text, lists and dictionaries, not {value!r}")
+
+
+def quoted(text):
+    """A string of TOML, which has the escapes of JSON but for pairs of surrogates."""
+    return json.dumps(text, ensure_ascii=False)
+
+
+def toml_of(tables):
+    """A dictionary as TOML text, one line for each entry of a table, so that messages point to the entry."""
+    plain = [f"{quoted(key)} = {toml_value(value)}" for key, value in tables.items() if not isinstance(value, Mapping)]
+    for name, table in tables.items():
+        if isinstance(table, Mapping):
+            plain += [f"[{quoted(name)}]", *(f"{quoted(key)} = {toml_value(value)}" for key, value in table.items())]
+    return "\n".join(plain) + "\n"
+
+
+value_and_unit = re.compile(r"\s*([-+]?[0-9.]+(?:[eE][-+]?[0-9]+)?)\s*(.*?)\s*")
+
+
+def coordinate(path, values):
+    """The values of a parameter as an xarray coordinate: numbers if all have the same unit."""
+    matches = [value_and_unit.fullmatch(value) for value in values if isinstance(value, str)]
+    if not matches:
+        return (path, values)
+    units = {match and match[2] for match in matches}
+    if len(matches) < len(values) or len(units) > 1 or None in units:
+        return (path, [str(value) for value in values])
+    unit = units.pop()
+    return (path, [float(match[1]) for match in matches], {"units": unit} if unit else {})
