@@ -9,17 +9,9 @@
 
 namespace rheonet {
 
-namespace {
-
-std::size_t lossy_trains(const Network& network) {
-  return static_cast<std::size_t>(std::count_if(network.trains.begin(), network.trains.end(), [](const Network::Train& train) { return train.loss.has_value(); }));
-}
-
-}  // namespace
-
 TrainForceTrials::TrainForceTrials(const Network& network, const Inputs& inputs, const std::vector<double>& first, double forces)
     : network_(&network), inputs_(&inputs), forces_(forces), trial_(Eigen::Map<const Eigen::VectorXd>(first.data(), static_cast<Eigen::Index>(first.size()))),
-      points_(1 + lossy_trains(network)), alone_(lossy_trains(network) == 1) {}
+      points_(1 + static_cast<std::size_t>(std::count_if(network.trains.begin(), network.trains.end(), [](const Network::Train& train) { return train.loss.has_value(); }))) {}
 
 bool TrainForceTrials::agree(const std::vector<double>& found) {
   Eigen::VectorXd miss = Eigen::VectorXd::Zero(trial_.size());
@@ -35,20 +27,9 @@ bool TrainForceTrials::agree(const std::vector<double>& found) {
   const double off = miss.lpNorm<Eigen::Infinity>(), before = std::exchange(off_, off);
   if (off <= numerics::balance_roundoff * size && (off <= numerics::equation_roundoff * size || off >= before)) return true;
   Eigen::VectorXd next = points_.next(trial_, trial_ + miss);
-  if (alone_ && count_ >= numerics::free_loss_trials) enclose(miss, next);
   if (count_++ == 0 && near_) next = trial_ * (1 + numerics::near_trial);
   trial_ = std::move(next);
   return false;
-}
-
-/// With one force alone, trials on both sides of it enclose it: then the next one is between them, now and then in the middle.
-void TrainForceTrials::enclose(const Eigen::VectorXd& miss, Eigen::VectorXd& next) {
-  Eigen::Index k = 0;
-  miss.cwiseAbs().maxCoeff(&k);
-  (miss[k] > 0 ? below_ : above_) = trial_[k];
-  if (!below_ || !above_) return;
-  const auto [low, high] = std::minmax(*below_, *above_);
-  if (!(next[k] > low && next[k] < high) || count_ % 4 == 3) next[k] = low + (high - low) / 2;
 }
 
 bool TrainForceTrials::endless() const { return count_ > (near_ ? numerics::near_loss_trials : numerics::loss_trials); }

@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 #include <limits>
-#include <optional>
 #include <vector>
 
 #include "core/dae/inputs.hpp"
@@ -31,8 +30,6 @@ class TrainForceTrials {
   bool endless() const;
 
  private:
-  void enclose(const Eigen::VectorXd& miss, Eigen::VectorXd& next);
-
   const Network* network_;
   const Inputs* inputs_;
   double forces_, off_ = std::numeric_limits<double>::infinity();
@@ -40,8 +37,6 @@ class TrainForceTrials {
   bool near_ = false;  ///< the second trial is near the first
   Eigen::VectorXd trial_;
   FixedPoint points_;  ///< combines one trial more than trains have losses
-  bool alone_;         ///< one train has losses
-  std::optional<double> below_, above_;  ///< trials of its force that its balance exceeds, or does not reach [N]
 };
 
 }  // namespace rheonet
