@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstring>
 #include <iterator>
+#include <new>
 
 #include "core/base/numerics.hpp"
 
@@ -68,6 +69,7 @@ void CsvWriter::flush() {
 void CsvWriter::fail() {
   const int reason = errno;
   file_ = nullptr;  // every later write would fail too
+  if (reason == ENOMEM) throw std::bad_alloc();  // a file in memory: see MemoryFile
   throw WriteError(fmt::format("{} cannot be written: {}", what_, std::strerror(reason)));
 }
 
