@@ -95,7 +95,8 @@ struct Integrator::Implementation {
     solver->ops->setsysfn = [](SUNNonlinearSolver, SUNNonlinSolSysFn) { return SUN_NLS_SUCCESS; };
     solver->ops->solve = solve;
     require(IDASetNonlinearSolver(ida, solver), "IDASetNonlinearSolver");
-    if (options.arc_states > 0 && dae.states() <= options.arc_states) arc = std::make_unique<ExactArc>(dae, tol);
+    // The matrices are dense, also in what is algebraic: as a rule each state has one such unknown beside it.
+    if (options.arc_states > 0 && std::max(dae.states(), dae.unknowns() / 2) <= options.arc_states) arc = std::make_unique<ExactArc>(dae, tol);
   }
 
   ~Implementation() {
