@@ -64,7 +64,6 @@ class Dae {
   const Pattern& pattern() const { return pattern_; }
 
   // --- What a consistent state needs (see consistency.hpp).
-  int states() const { return static_cast<int>(std::count(differential_.begin(), differential_.end(), 1)); }  ///< differential equations
   bool differential(int row) const { return differential_[static_cast<std::size_t>(row)] != 0; }
   /// The equation in this row is that of a train.
   bool tied(int row) const {

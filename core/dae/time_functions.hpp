@@ -23,8 +23,9 @@ struct TimeFunctions {
   Eigen::MatrixXd shifted(const Eigen::MatrixXd& coefficients, double by) const;
   /// Coefficients of the derivative.
   Eigen::MatrixXd derivative(const Eigen::MatrixXd& coefficients) const;
-  /// Coefficients of what has these values (rows) at these times, by least squares. The first time is 0; differences from the values there
-  /// are small beside those, and keep their digits. `misfit` is the largest difference of each column.
+  /// Coefficients of several quantities from their values: a row for each time, a column for each quantity, fitted by least squares. The first
+  /// time is 0. Differences from the values there are fitted, as small ones keep their digits. `misfit`: the largest difference
+  /// between values and fit, of each quantity.
   Eigen::MatrixXd fit(const std::vector<double>& times, const Eigen::MatrixXd& values, Eigen::VectorXd& misfit) const;
 };
 

@@ -21,7 +21,7 @@ class LookupTable final : public SwitchedFunction {
   std::size_t variables() const override { return variables_; }
   std::size_t switches() const override { return lines_.ends().empty() ? 0 : 1; }
   bool uses(std::size_t variable) const override { return variable == 0; }
-  bool linear() const override { return !curve_ && variables_ > 1; }
+  bool linear() const override { return !curve_ && variables_ > 1; }  // a single variable is the time
   std::string text() const override;
   std::optional<double> value(std::span<const double> arguments, std::span<const double> sides = {}) const override;
   std::optional<double> value(std::span<const double> arguments, std::span<const double> sides, std::span<double> partials) const override;

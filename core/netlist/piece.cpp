@@ -3,6 +3,7 @@
 #include <limits>
 #include <numbers>
 
+#include "core/base/numerics.hpp"
 #include "core/netlist/curve.hpp"
 #include "core/netlist/fresnel.hpp"
 #include "core/netlist/signal.hpp"
@@ -94,20 +95,18 @@ double Piece::area_of_area(double from, double to) const {
 }
 
 double Piece::rounding(double t) const {
-  // Number of operations that lead to a breakpoint, an angle or a value, each with half a unit in the last place of error.
-  constexpr double operations = 8;
   constexpr double eps = std::numeric_limits<double>::epsilon();
   if (integrated) {
     const double first = std::min(begin, t), last = std::max(begin, t);
-    return operations * eps * (std::abs(begin_value) + largest_function(first, last) * (std::abs(t) + std::abs(begin)));
+    return numerics::signal_ulps * eps * (std::abs(begin_value) + largest_function(first, last) * (std::abs(t) + std::abs(begin)));
   }
-  if (curve) return operations * eps * (curve->largest() + curve->largest_rate() * (std::abs(t) + std::abs(curve->first())));
+  if (curve) return numerics::signal_ulps * eps * (curve->largest() + curve->largest_rate() * (std::abs(t) + std::abs(curve->first())));
   const double tau = std::abs(t - origin);
   const double angle = std::abs(phase) + (std::abs(omega) + std::abs(chirp) * tau / 2) * tau;
   const double fastest = std::abs(slope) + std::abs(amplitude) * (std::abs(omega) + std::abs(chirp) * tau);
   const double sizes = std::abs(level) + std::abs(slope) * tau + std::abs(amplitude) * (1 + angle) +
                        fastest * (std::abs(t) + std::abs(origin));
-  return operations * eps * sizes;
+  return numerics::signal_ulps * eps * sizes;
 }
 
 double Piece::largest(double a, double b) const {
@@ -143,7 +142,7 @@ double Piece::largest_third(double a, double b) const {
 }
 
 double Piece::fastest() const {
-  // Of a sine the ratio is exact.
+  // A sine has exactly this ratio of its largest rates.
   if (curve) return curve->largest_rate() > 0 ? curve->largest_curvature() / curve->largest_rate() : 0;
   return amplitude == 0 ? 0 : std::abs(omega) + std::sqrt(std::abs(chirp));
 }

@@ -27,7 +27,7 @@ void add_product(double adjoint, double partial, double& sum) {
 }  // namespace
 
 bool RunTimeExpression::linear() const {
-  // Of each slot: 0 for what is constant between events, 1 for what is linear in the variables, 2 for the time and all else.
+  // A slot has degree 0 if it is constant between events, 1 if it is linear in the variables, and 2 if it is the time or anything else.
   std::vector<int> degree(slots_.size(), 0);
   for (std::size_t k = 0; k < variables_.size(); ++k) degree[k] = k + 1 < variables_.size() ? 1 : 2;
   for (const Step& step : steps_) {

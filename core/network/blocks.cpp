@@ -252,7 +252,9 @@ class Finder {
   void take_in_power(Blocks::Block& block, const SceneBlock::Input& input, const Record& record) {
     static const auto product = [] {
       const std::vector<RunTimeExpression::Variable> variables{{"u1", {}}, {"u2", {}}, {"t", {}}};
-      return std::make_shared<const RunTimeExpression>(std::get<RunTimeExpression>(RunTimeExpression::compile("u1*u2", variables, {})));
+      RunTimeExpression result = std::get<RunTimeExpression>(RunTimeExpression::compile("u1*u2", variables, {}));
+      result.show_as("power of an element");
+      return std::make_shared<const RunTimeExpression>(std::move(result));
     }();
     Blocks::Block power{.element = block.element, .law = {}, .generates = false, .signal = {}, .inputs = {}, .function = product};
     Record factor = record;

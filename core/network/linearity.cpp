@@ -4,6 +4,7 @@
 
 #include <set>
 #include <variant>
+#include <vector>
 
 #include "core/base/index.hpp"
 #include "core/base/numerics.hpp"
@@ -30,6 +31,21 @@ double frequency(const Signal& signal) {
   return sine ? sine->frequency : 0;
 }
 
+struct Given {
+  int element;
+  const Signal* signal;
+  bool moves = false;  ///< it is the position of a motion, whose velocity jumps at each corner
+};
+
+/// The signals of motions, forces and generators.
+std::vector<Given> given_signals(const Network& network) {
+  std::vector<Given> result;
+  for (const Network::Motion& m : network.motions) result.push_back({m.element, &m.signal, m.position});
+  for (const Network::Force& f : network.forces) result.push_back({f.element, &f.signal});
+  for (const Blocks::Block& block : network.blocks.blocks) result.push_back({block.element, &block.signal});
+  return result;
+}
+
 }  // namespace
 
 std::optional<NotLinear> not_linear(const Network& network) {
@@ -51,26 +67,19 @@ std::optional<NotLinear> not_linear(const Network& network) {
     if (block.function && !block.function->linear()) return wrong(block.element, fmt::format("`{}` computes `{}`", name_of(block.element), block.function->text()));
     if (block.law.delay > 0) return wrong(block.element, fmt::format("`{}` delays a signal", name_of(block.element)));
   }
+  for (const Network::Motion& m : network.motions) {
+    // It may part from rest like a power of time, below the round-off of a step.
+    if (m.block >= 0) return wrong(m.element, fmt::format("blocks give the motion `{}`", name_of(m.element)));
+  }
   for (const Network::Slider& slider : network.sliders) {
     if (slider.varying.size() > 1) return wrong(slider.branch.element, fmt::format("several parameters of `{}` vary", network.name_of(slider.branch)));
   }
   std::set<double> frequencies;
-  const auto look = [&](int element, const Signal& signal) -> std::optional<NotLinear> {
-    if (const double f = frequency(signal); f > 0) frequencies.insert(f);
-    if (const std::string what = bent(signal); !what.empty()) return wrong(element, fmt::format("the signal of `{}` is {}", name_of(element), what));
-    if (frequencies.size() <= numerics::arc_frequencies) return {};
-    return wrong(element, fmt::format("the inputs have more than {} frequencies", numerics::arc_frequencies));
-  };
-  for (const Network::Motion& m : network.motions) {
-    // It may part from rest like a power of time, below the round-off of a step.
-    if (m.block >= 0) return wrong(m.element, fmt::format("blocks give the motion `{}`", name_of(m.element)));
-    if (auto found = look(m.element, m.signal)) return found;
-  }
-  for (const Network::Force& f : network.forces) {
-    if (auto found = look(f.element, f.signal)) return found;
-  }
-  for (const Blocks::Block& block : network.blocks.blocks) {
-    if (auto found = look(block.element, block.signal)) return found;
+  for (const Given& given : given_signals(network)) {
+    if (const double f = frequency(*given.signal); f > 0) frequencies.insert(f);
+    if (const std::string what = bent(*given.signal); !what.empty()) return wrong(given.element, fmt::format("the signal of `{}` is {}", name_of(given.element), what));
+    if (frequencies.size() > numerics::arc_frequencies)
+      return wrong(given.element, fmt::format("the inputs have more than {} frequencies", numerics::arc_frequencies));
   }
   return {};
 }
@@ -87,7 +96,7 @@ std::optional<NotLinear> many_kinks(const Network& network) {
   for (std::size_t k = 0; network.bundles && k < network.bundles->size(); ++k) {
     const std::size_t pairs = (*network.bundles)[k].size();
     const int element = network.deflections[at(network.first_bundle) + k].element;
-    if (pairs > at(numerics::arc_states))
+    if (pairs > at(numerics::arc_unknowns))
       return NotLinear{network.spot_of(element), fmt::format("`{}` and others beside it, {} springs with sliders, are taken as one law", network.scene->elements[at(element)].name, pairs)};
   }
   return {};
@@ -95,20 +104,11 @@ std::optional<NotLinear> many_kinks(const Network& network) {
 
 /// A signal with so many corners that IDA, which steps over those that the accuracy cannot see, takes less time.
 std::optional<NotLinear> many_corners(const Network& network) {
-  const auto look = [&](int element, const Signal& signal) -> std::optional<NotLinear> {
-    const auto* table = std::get_if<Signal::Table>(&signal.shape());
-    if (!table || table->times.size() <= numerics::arc_corners) return {};
-    return NotLinear{network.spot_of(element), fmt::format("the table of `{}` has {} points, and steps pass over most of its corners", network.scene->elements[at(element)].name, table->times.size())};
-  };
-  for (const Network::Motion& m : network.motions) {
-    if (m.position) continue;  // the velocity jumps at each corner
-    if (auto found = look(m.element, m.signal)) return found;
-  }
-  for (const Network::Force& f : network.forces) {
-    if (auto found = look(f.element, f.signal)) return found;
-  }
-  for (const Blocks::Block& block : network.blocks.blocks) {
-    if (auto found = look(block.element, block.signal)) return found;
+  for (const Given& given : given_signals(network)) {
+    const auto* table = std::get_if<Signal::Table>(&given.signal->shape());
+    if (!table || given.moves || table->times.size() <= numerics::arc_corners) continue;
+    return NotLinear{network.spot_of(given.element),
+                     fmt::format("the table of `{}` has {} points, and steps pass over most of its corners", network.scene->elements[at(given.element)].name, table->times.size())};
   }
   return {};
 }
@@ -122,8 +122,10 @@ NetworkOfMethod::NetworkOfMethod(const Scene& scene, Scene::Method method) : net
     throw SimulationError(scene.method == Scene::Method::exact ? scene.method_spot : obstacle_->spot,
                           fmt::format("`method = \"exact\"` needs laws that are linear between events, but {}; without `method` any scene is simulated", obstacle_->reason));
   }
-  if (!obstacle_ && method == Scene::Method::automatic) obstacle_ = many_kinks(network_);
-  if (!obstacle_ && method == Scene::Method::automatic) obstacle_ = many_corners(network_);
+  if (method == Scene::Method::automatic) {
+    if (!obstacle_) obstacle_ = many_kinks(network_);
+    if (!obstacle_) obstacle_ = many_corners(network_);
+  }
   exact_ = !obstacle_;
   if (exact_ && network_.bundles) network_.bundles->stop_at_every_kink();
 }

@@ -10,12 +10,12 @@ namespace rheonet {
 /// Why the equations of a network are not linear with constant coefficients between two events, under inputs of constants, ramps and sines.
 struct NotLinear {
   Spot spot;
-  std::string reason;  ///< "the force of `c1` (cfm) is not linear in its deflection"
+  std::string reason;  ///< "the law of `c1` (cfm) is not linear"
 };
 
 /// Absent if they are: then exact_arc.hpp solves them in closed form. It follows from what the laws declare, in all their modes.
 std::optional<NotLinear> not_linear(const Network& network);
-/// The same for a scene.
+/// The same for a scene that is yet to become a network.
 std::optional<NotLinear> not_linear(const Scene& scene);
 
 /// A scene's network, prepared for the method that solves it.

@@ -35,7 +35,7 @@ class Claims {
   std::vector<Finding> findings() const;
 
  private:
-  /// The largest value of a record so far. Of several peaks of one height, within the accuracy, `at` is the time of the first.
+  /// The largest value of a record so far. If several peaks have one height, within the accuracy, `at` is the time of the first.
   struct Peak {
     double value = not_given, at = not_given;
     double height = not_given;  ///< value at `at`

@@ -337,8 +337,8 @@ class Explainer {
     cost.unknowns = dae.unknowns();
     if (scene_.method == Scene::Method::ida) cost.why_ida = "`method` asks for it";
     else if (by_method_.obstacle()) cost.why_ida = by_method_.obstacle()->reason;
-    else if (scene_.method == Scene::Method::automatic && std::max(dae.states(), dae.unknowns() / 2) > numerics::arc_states)
-      cost.why_ida = fmt::format("{} unknowns, {} of them states, are more than the {} states up to which closed forms cost less", dae.unknowns(), dae.states(), numerics::arc_states);
+    else if (scene_.method == Scene::Method::automatic && dae.unknowns() > numerics::arc_unknowns)
+      cost.why_ida = fmt::format("{} unknowns are more than the {} up to which closed forms cost less", dae.unknowns(), numerics::arc_unknowns);
     cost.entries = dae.unknowns() > 0 ? dae.pattern().entries() : 0;
     cost.sparse = dae.unknowns() > numerics::dense_integration_limit;
     const double rate = dae.unknowns() > 0 ? consistency.fastest_rate(t, scene_.stop - scene_.start, y, yp) : 0;

@@ -21,9 +21,9 @@ class MemoryFile {
   MemoryFile& operator=(const MemoryFile&) = delete;
 
   std::FILE* file() { return file_; }
-  /// What has been written so far; valid until the next write.
+  /// The text up to here; valid until the next write.
   std::string_view text() {
-    std::fflush(file_);
+    if (std::fflush(file_) != 0) throw std::bad_alloc();
     return {text_, size_};
   }
 

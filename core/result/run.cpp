@@ -314,7 +314,7 @@ Summary integrate(const Scene& scene, const RunSettings& settings, bool locate_e
   const SimulationSettings how{.stop = scene.stop - scene.start,
                                .accuracy = settings.tolerance.value_or(scene.accuracy),
                                .order = settings.order,
-                               .arc_states = !by_method.exact() ? 0 : method == Scene::Method::exact ? std::numeric_limits<int>::max() : numerics::arc_states,
+                               .arc_unknowns = !by_method.exact() ? 0 : method == Scene::Method::exact ? std::numeric_limits<int>::max() : numerics::arc_unknowns,
                                .locate_events = locate_events,
                                .switch_times = settings.events != nullptr || settings.event,
                                .interrupt = settings.interrupt,

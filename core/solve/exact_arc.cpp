@@ -29,13 +29,13 @@ struct ExactArc::Implementation {
   VectorXd y0;
   MatrixXd given;              ///< coefficients of h by the functions of time since `begin`
   VectorXd z;                  ///< at `from`
-  double from = 0, step = 0;   ///< of the last step [s since `begin`], [s]
-  StepNodes::Values y, yp, states;  ///< less y0, in the last step
-  StepNodes::Values rates;          ///< of the states
-  MatrixXd pushes, given_part, given_rate;  ///< L h, what h adds to d, and its rate, by the functions of time
-  VectorXd drive;              ///< of the states in the last step
-  mutable double place = not_given;   ///< share of the step, last asked for
-  mutable StepNodes::Shares shares;   ///< of the nodes there
+  double from = 0, step = 0;   ///< begin [s since `begin`] and length [s] of the last step
+  StepNodes::Values y, yp;          ///< the solution less y0, and its rate, in the last step
+  StepNodes::Values states, rates;  ///< z and its rate there
+  MatrixXd pushes, given_part, given_rate;  ///< coefficients of L h, of what h adds to d, and of its rate
+  VectorXd drive;              ///< see LinearEquations::drive
+  mutable double place = not_given;   ///< where in the step the solution was asked for last, as a share of it
+  mutable StepNodes::Shares shares;   ///< StepNodes::at(place)
   std::vector<double> entries, at_rest;
 
   Implementation(Dae& d, const std::vector<double>& tol)

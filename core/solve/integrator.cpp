@@ -95,8 +95,7 @@ struct Integrator::Implementation {
     solver->ops->setsysfn = [](SUNNonlinearSolver, SUNNonlinSolSysFn) { return SUN_NLS_SUCCESS; };
     solver->ops->solve = solve;
     require(IDASetNonlinearSolver(ida, solver), "IDASetNonlinearSolver");
-    // The matrices are dense, also in what is algebraic: as a rule each state has one such unknown beside it.
-    if (options.arc_states > 0 && std::max(dae.states(), dae.unknowns() / 2) <= options.arc_states) arc = std::make_unique<ExactArc>(dae, tol);
+    if (options.arc_unknowns > 0 && dae.unknowns() <= options.arc_unknowns) arc = std::make_unique<ExactArc>(dae, tol);
   }
 
   ~Implementation() {

@@ -30,7 +30,7 @@ class Integrator {
     int dense = numerics::dense_integration_limit;  ///< linear algebra is dense up to this many unknowns
     /// Locate each event within its step; if false, an event is taken to be at the end of its step, as many programs do.
     bool locate_events = true;
-    int arc_states = 0;  ///< exact arcs (exact_arc.hpp) cross every interval that they can, if there are no more states than this; 0: IDA alone
+    int arc_unknowns = 0;  ///< exact arcs (exact_arc.hpp) cross every interval that they can, if there are no more unknowns than this; 0: IDA alone
   };
 
   /// `tolerance[i]` is the allowed local error of unknown i (absolute, > 0), and a change of it below `grain[i]` is

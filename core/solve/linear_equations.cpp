@@ -100,8 +100,9 @@ Propagator doubled(const Propagator& p, const TimeFunctions& functions, double t
   return twice;
 }
 
-/// Makes the norms of each row and its column alike by powers of 2 (E. E. Osborne 1960). What takes no part in any loop, as the position of a
-/// mass without a spring, is scaled until it changes at a rate of the loops, or at `slowest` [1/s]. Returns the scales of the states.
+/// Makes the norms of each row and its column alike by powers of 2 (E. E. Osborne 1960). A state that acts on no other, or on which no other
+/// acts, has no such norm: the position of a mass without a spring, for instance. It is scaled until its rate is that of the others, or
+/// `slowest` [1/s]. Returns the scales of the states.
 VectorXd balance(MatrixXd& A, double slowest) {
   VectorXd scale = VectorXd::Ones(A.rows());
   if (A.size() == 0) return scale;

@@ -20,7 +20,8 @@ struct StepNodes {
   Shares highest, second_highest;  ///< of a value in the coefficients of the two highest polynomials
 
   StepNodes();
-  /// Of the values at the nodes in that at a share of the step (barycentric formula: J.-P. Berrut and L. N. Trefethen, SIAM Review 46 (2004) 501).
+  /// The value at a share of the step is the sum of the values at the nodes times these (barycentric formula: J.-P. Berrut and L. N. Trefethen,
+  /// SIAM Review 46 (2004) 501).
   Shares at(double share) const;
 
  private:
@@ -31,8 +32,9 @@ struct StepNodes {
 const StepNodes& step_nodes();
 
 /// M d' + K d = h(t) with constant matrices. The rows with derivatives give the states z = M d, the others are algebraic: [M; K] d = [z; h],
-/// z' = A z + L h. For each of the functions of time that h is made of, the response of z is a matrix, kept for the nodes of steps of
-/// h0 2^k, k = 0, 1, ...: by Taylor's series on the shortest step, and by doubling from there.
+/// z' = A z + L h. The inputs h are sums of functions of time. One matrix gives the response of z to its own start, and one its response to each
+/// function. They are kept for all nodes of steps of the lengths h0, 2 h0, 4 h0, ... Taylor's series makes those of the shortest step, and
+/// doubling the others.
 class LinearEquations {
  public:
   /// `both` has the rows of M where there are derivatives, else those of K. `interval`: a time for which they are to be solved [s].
@@ -57,17 +59,17 @@ class LinearEquations {
   void respond_to(const Eigen::MatrixXd& h, double interval);
   const TimeFunctions& functions() const { return functions_; }
 
-  /// Of z' = A z + sum of b_j times function j, at one time: z = z0 + change z0 + sum of response_j b_j.
+  /// The solution of z' = A z + (sum of b_j times function j) at one time: z = z0 + change z0 + (sum of response_j b_j).
   struct Propagator {
-    Eigen::MatrixXd change;  ///< exp(A tau) - 1: what is small keeps its digits
-    std::vector<Eigen::MatrixXd> response;  ///< their columns: of the states that are pushed
+    Eigen::MatrixXd change;  ///< exp(A tau) - 1, in which small changes keep their digits
+    std::vector<Eigen::MatrixXd> response;  ///< with columns for the states that inputs push alone
   };
   struct Level {
     std::array<Propagator, StepNodes::last> at_node;  ///< of each node after the first
     Eigen::MatrixXd states;       ///< by `drive`: the first state at all nodes, then the second, ...
     StepNodes::Values functions;  ///< the functions of time
   };
-  /// Steps of h0 2^k.
+  /// The matrices for steps of length h0 2^k.
   const Level& level(int k);
   double length(int level) const;  ///< s
 

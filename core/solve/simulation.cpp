@@ -42,7 +42,7 @@ class Run {
         transition_(network, classified_, inputs_),
         error_model_(network, classified_, settings.stop),
         tolerances_(network, tolerance(error_model_.local_share())),
-        mode_cache_(network, classified_, inputs_, needed, modes_, tolerances_, {.order = settings.order, .locate_events = settings.locate_events, .arc_states = settings.arc_states}),
+        mode_cache_(network, classified_, inputs_, needed, modes_, tolerances_, {.order = settings.order, .locate_events = settings.locate_events, .arc_unknowns = settings.arc_unknowns}),
         mode_changes_(network, inputs_),
         chatter_(network.scene->elements.size() + 1, settings.accuracy),
         regularisation_(network) {
@@ -384,7 +384,7 @@ class Run {
 
   void restart(double t, double until, double shrink) {
     on_arc_ = system_->integrator.begins_arc(inputs_.exact(t), y_, inputs_.exact_break(until));
-    if (settings_.arc_states > 0) allow_errors();
+    if (settings_.arc_unknowns > 0) allow_errors();
     double ahead = numerics::lookahead_time * course(t);
     std::vector<double> ypp;
     // The difference step must exceed the round-off of time, even in a short interval.
