@@ -357,7 +357,7 @@ ConvexNetwork::Outcome ConvexNetwork::solve() {
         // Branches released together hold each other back: release the worst alone. If it holds itself back, it was round-off.
         const bool alone = released_.size() == 1;
         for (std::size_t k = alone ? 0 : 1; k < released_.size(); ++k) branches_[at(released_[k])].stuck = true;
-        if (alone && (looked_again || !stick_where_idle())) return Outcome::solved;
+        if (alone && (looked_again || !stick_where_idle())) return within_bounds() ? Outcome::solved : Outcome::undecided;
         looked_again = looked_again || alone;
         released_.resize(alone ? 0 : 1);
         continue;

@@ -140,6 +140,7 @@ class ConvexNetwork {
   bool flattened(const std::vector<double>& gradient);
   double power() const;
   void find_bond_forces();
+  bool within_bounds();
 
   std::vector<double> origin_;    ///< start value of x
   std::vector<double> base_, u_;  ///< x = base + u; base is the start value of the node, or of the heavy node that it follows

@@ -180,16 +180,24 @@ void ConvexNetwork::part_torn_equations() {
 }
 
 /// Brings the start values to where the equations hold, by the least change that the inertias allow. Later steps keep them.
+/// Branches that would thereby move as their laws forbid stick.
 void ConvexNetwork::meet_equations() {
-  if (equations_.empty()) return;
-  Eigen::VectorXd left;
-  equations_of_columns(left);
-  if (left.isZero(0)) return;
-  std::vector<double> d;
-  if (!direction_of_descent(std::vector<double>(at(columns_), 0), d, false)) return;
-  for (std::size_t k = 0; k < u_.size(); ++k) u_[k] += d[k];
-  for (Branch& b : branches_) b.w = nodal_difference(b);
-  for (Equation& e : equations_) e.force = 0;
+  for (bool again = !equations_.empty(); again;) {
+    again = false;
+    Eigen::VectorXd left;
+    equations_of_columns(left);
+    if (left.isZero(0)) return;
+    std::vector<double> d;
+    if (!direction_of_descent(std::vector<double>(at(columns_), 0), d, false)) return;
+    for (std::size_t k = 0; k < u_.size(); ++k) u_[k] += d[k];
+    for (Equation& e : equations_) e.force = 0;
+    for (Branch& b : branches_) {
+      b.w = nodal_difference(b);
+      if (b.stuck || b.w == 0 || !forbids(b, b.w)) continue;
+      again = b.stuck = true;
+    }
+    if (again) merge();
+  }
 }
 
 }  // namespace rheonet

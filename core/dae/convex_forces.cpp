@@ -60,9 +60,24 @@ void ConvexNetwork::find_bond_forces() {
   }
 }
 
+/// True if all branches that stick can hold their forces, to the round-off of the largest of all forces.
+bool ConvexNetwork::within_bounds() {
+  find_bond_forces();
+  double largest = 0;
+  for (const double load : applied_) largest = std::max(largest, std::abs(load));
+  for (std::size_t k = 0; k < branches_.size(); ++k) largest = std::max(largest, std::abs(force(static_cast<int>(k))));
+  const double rounding = numerics::balance_roundoff * largest;
+  for (std::size_t k = 0; k < branches_.size(); ++k) {
+    const Branch& b = branches_[k];
+    if (b.stuck && (bond_force_[k] > b.law.high + rounding || bond_force_[k] < b.law.low - rounding)) return false;
+  }
+  return true;
+}
+
 /// Releases the branches whose force is beyond its bounds; false if there are none.
 bool ConvexNetwork::release() {
   find_bond_forces();
+  const std::vector<std::size_t> locked = locked_equations();
   const std::vector<double>& f = bond_force_;
   std::vector<std::pair<double, int>> beyond;
   for (std::size_t k = 0; k < branches_.size(); ++k) {
@@ -80,7 +95,10 @@ bool ConvexNetwork::release() {
     b.side = f[at(k)] > b.law.high ? 1 : -1;
     released_.push_back(k);
   }
-  return !beyond.empty();
+  // What is no longer locked begins anew: the round-off of an open force may exceed the forces that balance now.
+  if (beyond.empty()) return false;
+  for (const std::size_t e : locked) equations_[e].force = 0;
+  return true;
 }
 
 /// Releases all branches that slipped before. A branch that does not move sticks again, like any other branch.

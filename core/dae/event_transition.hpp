@@ -191,6 +191,9 @@ class EventTransition {
   std::vector<int> hit_;               ///< sliders in contact whose ends moved towards each other at this event
   double largest_kinetic_ = 0;         ///< at events so far [J]
   std::vector<double> slack_;          ///< of each node: imbalance that is accepted [N]
+  /// True if both ends move as prescribed, through rigid links too.
+  bool prescribed(const Branch& b) const { return led_by_[at(b.a)] >= 0 && led_by_[at(b.b)] >= 0; }
+
   std::vector<NodeId> led_by_;         ///< of each node: itself if its motion is known, a known node to which rigid links join it, or -1
   std::vector<char> firm_;             ///< of each node: it, or a node to which rigid links join it, is known or has a mass
 };

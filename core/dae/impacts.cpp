@@ -182,10 +182,9 @@ std::vector<int> EventTransition::moving_backwards(const State& state) const {
   const auto velocity = [&](NodeId n) { return led_by_[at(n)] >= 0 ? given_velocity(led_by_[at(n)]) : state.velocity[at(n)]; };
   for (std::size_t k = 0; k < network_.sliders.size(); ++k) {
     const auto& [element, a, b] = network_.sliders[k].branch;
-    const bool given = led_by_[at(a)] >= 0 && led_by_[at(b)] >= 0;
     // An impact goes on through nodes without mass that are in contact with others.
     const bool firm = (firm_[at(a)] && firm_[at(b)]) || network_.sliders[k].contact;
-    if (given || !firm || is_rigid_link(network_.sliders[k])) continue;
+    if (prescribed(network_.sliders[k].branch) || !firm || is_rigid_link(network_.sliders[k])) continue;
     const double va = velocity(a), vb = velocity(b);
     const bool never = std::isinf(inputs_.box(k).at(va < vb ? -1 : 1).sliding.value);
     if (never && std::abs(va - vb) > numerics::equal_energies * (std::abs(va) + std::abs(vb))) result.push_back(static_cast<int>(k));

@@ -178,12 +178,14 @@ bool EventTransition::holds(const ModeSelection& selection, std::size_t slider) 
   return selection.problem.direction(selection.slider[slider]) == 0 && !apart(slider);
 }
 
-/// Whether some slider begins to slip although its force was within its bounds.
+/// Whether some slider begins to slip although its force was within its bounds, or one that came to rest slips back. Between prescribed
+/// motions it slips as they do.
 bool EventTransition::breaks_loose(const ModeSelection& selection) const {
   for (std::size_t k = 0; k < selection.slider.size(); ++k) {
     const ConvexNetwork::Bounds bounds = selection.problem.bounds(selection.slider[k]);
-    if (selection.modes->slider[k] == Modes::stuck && bounds.low < 0 && bounds.high > 0 && selection.problem.direction(selection.slider[k]) != 0)
-      return true;
+    const int direction = selection.problem.direction(selection.slider[k]);
+    const bool within = selection.modes->slider[k] == Modes::stuck && bounds.low < 0 && bounds.high > 0;
+    if (direction != 0 && (within || (direction == -came_to_rest_[k] && !prescribed(network_.sliders[k].branch)))) return true;
   }
   return false;
 }
