@@ -4,13 +4,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
 
 #include "core/base/format_list.hpp"
 #include "core/base/numerics.hpp"
 
 namespace rheonet {
 
-ChatterDetection::ChatterDetection(std::size_t causes, double accuracy) : accuracy_(accuracy), count_(causes, 0) {}
+ChatterDetection::ChatterDetection(std::size_t causes, double accuracy) : accuracy_(accuracy), count_(causes, 0), last_impact_(causes, std::numeric_limits<double>::quiet_NaN()) {}
 
 void ChatterDetection::reset() {
   begun_ = false;
@@ -80,6 +83,30 @@ std::string ChatterDetection::describe(const Network& network, double t) const {
       "at {} ends or a looser accuracy would end it",
       several ? "s" : "", format_list(names, numerics::chatter_names), several ? "" : "es", numerics::chatter_events, t - since_, several ? "them" : "it",
       several ? "their" : "its");
+}
+
+bool ChatterDetection::squeezed(double t, int cause, double left) {
+  const double before = std::exchange(last_impact_[static_cast<std::size_t>(cause)], t);
+  if (std::isnan(before)) return false;
+  hops_.push_back({t - before, cause});
+  if (hops_.size() <= numerics::chatter_events) return false;
+  hops_.pop_front();
+  const auto sum = [](auto from, auto to) { return std::accumulate(from, to, 0.0, [](double length, const Hop& hop) { return length + hop.length; }); };
+  const auto middle = hops_.begin() + numerics::chatter_events / 2;
+  const double first = sum(hops_.begin(), middle), second = sum(middle, hops_.end());
+  // Hops of a ball that comes to rest become shorter by the same share each.
+  return second >= first && left > (first + second) * numerics::endless_counts / numerics::endless_time;
+}
+
+std::string ChatterDetection::describe_squeeze(const Network& network) const {
+  std::vector<std::string> names;
+  for (const Hop& hop : hops_) {
+    const std::string& name = network.scene->elements[static_cast<std::size_t>(hop.cause)].name;
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  }
+  return fmt::format("{} hit{} over and over, each {:.2g} s after the last time: what moves between rigid stops has no room left there; let the motion that closes the "
+                     "gap end before, or give a stop a finite `stiffness`",
+                     format_list(names, numerics::chatter_names), names.size() > 1 ? "" : "s", hops_.back().length);
 }
 
 bool ChatterDetection::failing(double t, double within) {

@@ -32,6 +32,12 @@ class ChatterDetection {
   /// A message that names the busiest elements and a remedy.
   std::string describe(const Network& network, double t) const;
 
+  /// Counts an impact of this cause at t, `left` [s] before the end of the run. True when the hops between impacts of the same causes do
+  /// not become shorter, and the run would never end.
+  bool squeezed(double t, int cause, double left);
+  /// A message that names the elements of these impacts and a remedy.
+  std::string describe_squeeze(const Network& network) const;
+
   /// Counts a failure of the integrator at t. True when the last failures all lie `within` this time [s]: the solution
   /// probably grows without bound there.
   bool failing(double t, double within);
@@ -54,6 +60,12 @@ class ChatterDetection {
   Watched velocity_, deflection_;
   std::vector<int> count_;  ///< of each cause
   std::vector<int> fired_;  ///< causes with a count above 0
+  struct Hop {
+    double length;  ///< s
+    int cause;
+  };
+  std::deque<Hop> hops_;             ///< the last ones
+  std::vector<double> last_impact_;  ///< time of each cause's [s]; NaN: there was none
   std::deque<double> failures_;  ///< times of the last failures [s]
   double reached_ = 0;           ///< time near which the last steps ended [s]
   int steps_there_ = 0;

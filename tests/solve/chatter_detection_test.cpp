@@ -109,4 +109,44 @@ TEST_CASE("friction at presliding distances far below the way gone is followed t
   }
 }
 
+TEST_CASE("hops that become shorter come to an end; hops of no length that do not are squeezed") {
+  const int many = 3 * static_cast<int>(numerics::chatter_events);
+  ChatterDetection bounces(1, 1e-6), squeezed(1, 1e-6), rain(1000, 1e-6);
+  double bounced = 0;
+  bool ends = false;
+  for (int k = 0; k < many; ++k) {
+    CHECK_FALSE(bounces.squeezed(bounced += std::pow(0.99, k), 0, 1e12));
+    ends = squeezed.squeezed(10 + 1e-13 * k, 0, 10) || ends;
+  }
+  CHECK(ends);
+  // A thousand balls that bounce at almost the same time.
+  for (int k = 0; k < many; ++k) CHECK_FALSE(rain.squeezed(k / 1000 + 1e-13 * (k % 1000), k % 1000, 1e3));
+}
+
+TEST_CASE("a ball between a rigid wall and one that comes nearer") {
+  const auto scene = [](const char* wall) {
+    return scene_of(std::string(R"([elements]
+wall = { type = "motion", at = "wall", )") + wall + R"( }
+ball = { type = "mass", at = "ball", mass = 1 }
+left = { type = "stop", between = ["wall", "ball"], lower = 0, stiffness = "inf", restitution = 0.8 }
+right = { type = "stop", between = ["ball", "ground"], lower = 0, stiffness = "inf", restitution = 0.5 }
+[nodes]
+wall = { position = 1 }
+ball = { position = 0.5, velocity = 0.37 }
+[simulate]
+stop = 20
+output = { points = 11 }
+)");
+  };
+  // It stops 1 mm before the other wall: the ball comes to rest in between, by infinitely many impacts.
+  const RunTable rows = simulate(scene("velocity = { table = [[0, -0.1], [9.99, -0.1], [9.99, 0], [20, 0]] }"));
+  CHECK_GE(rows["ball.position"].back(), 0);
+  CHECK_LE(rows["ball.position"].back(), 0.001);
+  for (const auto method : {Scene::Method::exact, Scene::Method::ida}) {
+    Scene closes = scene("velocity = -0.1");
+    closes.method = method;
+    CHECK(attempt(closes).refusal.find("no room left") != std::string::npos);
+  }
+}
+
 }  // namespace rheonet::test
