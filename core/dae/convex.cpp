@@ -259,13 +259,13 @@ void ConvexNetwork::let_prescribed_part() {
 }
 
 /// Sums the forces at all free clusters; true if the sums are round-off.
-bool ConvexNetwork::balanced(std::vector<double>& gradient) const {
-  gradient.assign(at(columns_), 0);
-  std::vector<double> rounding(gradient);
+bool ConvexNetwork::balanced(Sums& sums) const {
+  sums.all.assign(at(columns_), 0);
+  std::vector<double> rounding(sums.all);
   const auto add = [&](int node, double f) {
     const int column = column_[at(cluster_[at(node)])];
     if (column < 0) return;
-    gradient[at(column)] += f;
+    sums.all[at(column)] += f;
     rounding[at(column)] += numerics::convex_balance_roundoff * std::abs(f);
   };
   // Round-off of the values themselves.
@@ -289,11 +289,12 @@ bool ConvexNetwork::balanced(std::vector<double>& gradient) const {
     add(node, inertia_[k] * u_[k]);
     blur(node, inertia_[k], u_[k]);
   }
+  sums.laws = sums.all;
   for (const Equation& e : equations_) {
     for (std::size_t i = 0; i < e.node.size(); ++i) add(e.node[i], e.factor[i] * e.force);
   }
   bool met = true;
-  for (std::size_t c = 0; c < gradient.size(); ++c) met = met && std::abs(gradient[c]) <= rounding[c];
+  for (std::size_t c = 0; c < sums.all.size(); ++c) met = met && std::abs(sums.all[c]) <= rounding[c];
   return met;
 }
 
@@ -325,7 +326,8 @@ ConvexNetwork::Outcome ConvexNetwork::solve() {
   stick_at_first();
   for (Branch& b : branches_) b.w = nodal_difference(b);
   released_.clear();
-  std::vector<double> gradient, d;
+  Sums sums;
+  std::vector<double> d;
   int idle = 0;  // rounds in a row without gain
   double least = std::numeric_limits<double>::infinity();  // least imbalance since the last release
   int stagnant = 0;
@@ -340,14 +342,14 @@ ConvexNetwork::Outcome ConvexNetwork::solve() {
       part_torn_equations();
       meet_equations();
     }
-    bool settled = balanced(gradient) || full_steps_ >= numerics::settled_newton_steps || idle >= numerics::settled_newton_steps;
+    bool settled = balanced(sums) || full_steps_ >= numerics::settled_newton_steps || idle >= numerics::settled_newton_steps;
     if (!settled) {
-      if (!direction_of_descent(gradient, d, false)) {
-        if (flattened(gradient)) return Outcome::unbounded;
-        if (!direction_of_descent(gradient, d, true)) return Outcome::undecided;
+      if (!direction_of_descent(sums.laws, d, false)) {
+        if (flattened(sums.all)) return Outcome::unbounded;
+        if (!direction_of_descent(sums.laws, d, true)) return Outcome::undecided;
       }
       const double descent = slope_along(d, 0);
-      if (!equations_.empty() && balanced(gradient)) {
+      if (!equations_.empty() && balanced(sums)) {
         // The forces of equations balance everything, and hold what was released: the step is their round-off.
         released_.clear();
         looked_again = false;
@@ -365,11 +367,11 @@ ConvexNetwork::Outcome ConvexNetwork::solve() {
       settled = settled || !(descent < 0);
       idle = -descent <= numerics::least_newton_gain * power() ? idle + 1 : 0;
       double left = 0;
-      for (double g : gradient) left = std::max(left, std::abs(g));
+      for (double g : sums.all) left = std::max(left, std::abs(g));
       stagnant = left < least / 2 ? 0 : stagnant + 1;
       least = std::min(least, left);
       if (stagnant >= numerics::stagnant_rounds) {
-        if (flattened(gradient)) return Outcome::unbounded;
+        if (flattened(sums.all)) return Outcome::unbounded;
         settled = true;
       }
     }

@@ -131,13 +131,16 @@ class ConvexNetwork {
   bool part_torn();
   bool stick_where_idle();
   void merge();
-  bool balanced(std::vector<double>& gradient) const;
-  bool direction_of_descent(const std::vector<double>& gradient, std::vector<double>& d, bool secants);
+  struct Sums {
+    std::vector<double> laws, all;  ///< of forces at each column, without and with those of equations
+  };
+  bool balanced(Sums& sums) const;
+  bool direction_of_descent(const std::vector<double>& sum_of_laws, std::vector<double>& d, bool secants);
   Outcome search(const std::vector<double>& d);
   bool release();
   void release_as_before();
   bool run_away();
-  bool flattened(const std::vector<double>& gradient);
+  bool flattened(const std::vector<double>& sums);
   double power() const;
   void find_bond_forces();
   bool within_bounds();

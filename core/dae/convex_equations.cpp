@@ -109,12 +109,13 @@ std::vector<std::vector<double>> ConvexNetwork::equations_of_columns(Eigen::Vect
   return rows;
 }
 
-/// Newton's step and the forces of the equations. `step` holds minus the sums of forces, then the step.
+/// Newton's step and the forces of the equations, from the sums of the laws' forces alone: added to earlier forces of equations, small ones
+/// would be their round-off. `step` holds minus these sums, then the step.
 bool ConvexNetwork::step_within_equations(const std::vector<Conductance>& slopes, Eigen::VectorXd& step) {
   Eigen::VectorXd left, forces;
   const std::vector<std::vector<double>> rows = equations_of_columns(left);
   if (!solve_with_equations(slopes, rows, left, step, forces)) return false;
-  for (std::size_t e = 0; e < equations_.size(); ++e) equations_[e].force += forces[static_cast<Eigen::Index>(e)];
+  for (std::size_t e = 0; e < equations_.size(); ++e) equations_[e].force = forces[static_cast<Eigen::Index>(e)];
   return true;
 }
 

@@ -77,7 +77,6 @@ bool ConvexNetwork::within_bounds() {
 /// Releases the branches whose force is beyond its bounds; false if there are none.
 bool ConvexNetwork::release() {
   find_bond_forces();
-  const std::vector<std::size_t> locked = locked_equations();
   const std::vector<double>& f = bond_force_;
   std::vector<std::pair<double, int>> beyond;
   for (std::size_t k = 0; k < branches_.size(); ++k) {
@@ -95,10 +94,7 @@ bool ConvexNetwork::release() {
     b.side = f[at(k)] > b.law.high ? 1 : -1;
     released_.push_back(k);
   }
-  // What is no longer locked begins anew: the round-off of an open force may exceed the forces that balance now.
-  if (beyond.empty()) return false;
-  for (const std::size_t e : locked) equations_[e].force = 0;
-  return true;
+  return !beyond.empty();
 }
 
 /// Releases all branches that slipped before. A branch that does not move sticks again, like any other branch.
@@ -155,7 +151,7 @@ bool ConvexNetwork::run_away() {
 }
 
 /// True if laws that reach a bound only in the limit have done so, and an imbalance remains.
-bool ConvexNetwork::flattened(const std::vector<double>& gradient) {
+bool ConvexNetwork::flattened(const std::vector<double>& sums) {
   // The parts of the network that remain when flat laws are cut: only bounds hold them.
   DisjointSets parts(u_.size());
   for (const Branch& b : branches_) {
@@ -177,7 +173,7 @@ bool ConvexNetwork::flattened(const std::vector<double>& gradient) {
     if (restrained(k)) held[at(parts.find(static_cast<int>(k)))] = 1;
     forces[at(parts.find(static_cast<int>(k)))] += std::abs(applied_[k]);
     const int column = column_[at(cluster_[k])];
-    if (column >= 0 && head_[at(cluster_[k])] == static_cast<int>(k)) left[at(parts.find(static_cast<int>(k)))] += gradient[at(column)];
+    if (column >= 0 && head_[at(cluster_[k])] == static_cast<int>(k)) left[at(parts.find(static_cast<int>(k)))] += sums[at(column)];
   }
   for (std::size_t k = 0; k < u_.size(); ++k) {
     const std::size_t part = at(parts.find(static_cast<int>(k)));

@@ -17,7 +17,7 @@ constexpr double meeting_rounding = numerics::sum_ulps * std::numeric_limits<dou
 }  // namespace
 
 /// Newton's direction. With `secants`, laws that have become flat count by their secant from w = 0, or by their other slope.
-bool ConvexNetwork::direction_of_descent(const std::vector<double>& gradient, std::vector<double>& d, bool secants) {
+bool ConvexNetwork::direction_of_descent(const std::vector<double>& sum_of_laws, std::vector<double>& d, bool secants) {
   std::vector<Conductance> slopes;
   for (const Branch& b : branches_) {
     const int a = column_[at(cluster_[at(b.a)])], c = column_[at(cluster_[at(b.b)])];
@@ -35,7 +35,7 @@ bool ConvexNetwork::direction_of_descent(const std::vector<double>& gradient, st
     const int column = column_[at(cluster_[k])];
     if (column >= 0 && inertia_[k] > 0) slopes.push_back({column, -1, inertia_[k]});
   }
-  Eigen::VectorXd step = -Eigen::Map<const Eigen::VectorXd>(gradient.data(), columns_);
+  Eigen::VectorXd step = -Eigen::Map<const Eigen::VectorXd>(sum_of_laws.data(), columns_);
   if (!(equations_.empty() ? solve_conductances(slopes, step) : step_within_equations(slopes, step))) return false;
   d.assign(u_.size(), 0);
   for (std::size_t k = 0; k < u_.size(); ++k) {
