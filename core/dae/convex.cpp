@@ -359,7 +359,7 @@ ConvexNetwork::Outcome ConvexNetwork::solve() {
         // Branches released together hold each other back: release the worst alone. If it holds itself back, it was round-off.
         const bool alone = released_.size() == 1;
         for (std::size_t k = alone ? 0 : 1; k < released_.size(); ++k) branches_[at(released_[k])].stuck = true;
-        if (alone && (looked_again || !stick_where_idle())) return within_bounds() ? Outcome::solved : Outcome::undecided;
+        if (alone && (looked_again || !stick_where_idle())) return equations_.empty() || bonds_hold() ? Outcome::solved : Outcome::undecided;
         looked_again = looked_again || alone;
         released_.resize(alone ? 0 : 1);
         continue;
@@ -378,7 +378,7 @@ ConvexNetwork::Outcome ConvexNetwork::solve() {
     if (settled) {
       full_steps_ = idle = stagnant = 0;
       least = std::numeric_limits<double>::infinity();
-      if (!release()) return run_away() ? Outcome::unbounded : Outcome::solved;
+      if (!release()) return run_away() ? Outcome::unbounded : in_doubt_ ? Outcome::undecided : Outcome::solved;
       if (++releases == numerics::single_releases) release_as_before();
       continue;
     }

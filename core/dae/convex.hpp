@@ -110,7 +110,7 @@ class ConvexNetwork {
   bool restrained(std::size_t node) const { return fixed_[node] || inertia_[node] > 0 || (tied_[node] && any_inertia_); }
   std::vector<std::vector<double>> equations_of_columns(Eigen::VectorXd& left) const;
   bool step_within_equations(const std::vector<Conductance>& slopes, Eigen::VectorXd& step);
-  void share_with_locked_equations(const std::vector<Conductance>& bonds, const std::vector<int>& row, Eigen::VectorXd& phi);
+  void share_with_locked_equations(const std::vector<int>& row, const Eigen::VectorXd& load);
   double torn(const Equation& equation) const;
   void part_torn_equations();
   void meet_equations();
@@ -143,7 +143,7 @@ class ConvexNetwork {
   bool flattened(const std::vector<double>& sums);
   double power() const;
   void find_bond_forces();
-  bool within_bounds();
+  bool bonds_hold();
 
   std::vector<double> origin_;    ///< start value of x
   std::vector<double> base_, u_;  ///< x = base + u; base is the start value of the node, or of the heavy node that it follows
@@ -162,6 +162,12 @@ class ConvexNetwork {
   std::size_t rounds_ = 0;
   std::vector<int> runaways_;
   std::vector<double> bond_force_;  ///< of each branch that sticks
+  bool in_doubt_ = false;           ///< round-off prevented these
+  struct Beyond {
+    double over;  ///< by how much, or with which share
+    int branch, side;
+  };
+  std::vector<Beyond> beyond_;  ///< sticking branches that cannot hold their forces
 };
 
 }  // namespace rheonet

@@ -2,10 +2,12 @@
 #include <Eigen/SparseLU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/base/numerics.hpp"
 #include "core/dae/convex.hpp"
 #include "core/nonsmooth/conductances.hpp"
+#include "core/nonsmooth/least_norm.hpp"
 
 namespace rheonet {
 
@@ -137,22 +139,46 @@ std::vector<std::size_t> ConvexNetwork::locked_equations() const {
   return result;
 }
 
-/// Forces of least norm of the bonds, if locked equations take any force: `phi` holds the loads of its rows, then the potentials.
-void ConvexNetwork::share_with_locked_equations(const std::vector<Conductance>& bonds, const std::vector<int>& row, Eigen::VectorXd& phi) {
+/// Forces of least norm within the bounds, of the bonds and of locked equations, which take any force. `row`: of each node, its place in
+/// `load`, or -1. Where nothing within the bounds balances the loads, the bonds that contradict them are beyond theirs: if these open, the
+/// nodes can move in a direction in which the loads outweigh all bounds.
+void ConvexNetwork::share_with_locked_equations(const std::vector<int>& row, const Eigen::VectorXd& load) {
+  constexpr double unlimited = std::numeric_limits<double>::infinity();
   const std::vector<std::size_t> locked = locked_equations();
-  std::vector<std::vector<double>> rows;
+  std::vector<std::size_t> bonds;
+  for (std::size_t k = 0; k < branches_.size(); ++k) {
+    if (branches_[k].stuck) bonds.push_back(k);
+  }
+  LeastNorm problem{Eigen::MatrixXd::Zero(load.size(), static_cast<Eigen::Index>(bonds.size() + locked.size())), {}, {}};
+  const auto act = [&](int node, Eigen::Index column, double factor) {
+    if (row[at(node)] >= 0) problem.balance(row[at(node)], column) += factor;
+  };
+  // Counted from the least force within the bounds, which then contain 0.
+  std::vector<double> least;
+  Eigen::VectorXd left = load;
+  Eigen::Index column = 0;
+  for (const std::size_t k : bonds) {
+    const Branch& b = branches_[k];
+    act(b.a, column, 1);
+    act(b.b, column, -1);
+    least.push_back(std::clamp(0.0, b.law.low, b.law.high));
+    left -= least.back() * problem.balance.col(column++);
+    problem.low.push_back(b.law.low - least.back());
+    problem.high.push_back(b.law.high - least.back());
+  }
   for (const std::size_t e : locked) {
-    rows.emplace_back(static_cast<std::size_t>(phi.size()), 0);
-    for (std::size_t i = 0; i < equations_[e].node.size(); ++i) {
-      if (const int r = row[at(equations_[e].node[i])]; r >= 0) rows.back()[at(r)] += equations_[e].factor[i];
-    }
+    for (std::size_t i = 0; i < equations_[e].node.size(); ++i) act(equations_[e].node[i], column, equations_[e].factor[i]);
+    ++column;
+    problem.low.push_back(-unlimited);
+    problem.high.push_back(unlimited);
   }
-  Eigen::VectorXd forces;
-  if (!solve_with_equations(bonds, rows, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(locked.size())), phi, forces)) {
-    solve_conductances(bonds, phi);
-    return;
-  }
-  for (std::size_t k = 0; k < locked.size(); ++k) equations_[locked[k]].force = forces[static_cast<Eigen::Index>(k)];
+  std::vector<double> force;
+  std::vector<LeastNorm::Bound> contradiction;
+  in_doubt_ = !problem.solve_within({left.begin(), left.end()}, force, contradiction);
+  if (in_doubt_) return;
+  for (const LeastNorm::Bound& bound : contradiction) beyond_.push_back({bound.share, static_cast<int>(bonds[bound.force]), bound.side});
+  for (std::size_t i = 0; i < bonds.size(); ++i) bond_force_[bonds[i]] = least[i] + force[i];
+  for (std::size_t i = 0; i < locked.size(); ++i) equations_[locked[i]].force = force[bonds.size() + i];
 }
 
 /// By how much an equation does not hold [m/s]; 0 if that is round-off.

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/base/disjoint_sets.hpp"
 #include "core/base/numerics.hpp"
@@ -11,6 +12,8 @@ namespace rheonet {
 /// Forces of least norm in the branches that stick: see stick_forces.cpp.
 void ConvexNetwork::find_bond_forces() {
   bond_force_.assign(branches_.size(), 0);
+  beyond_.clear();
+  in_doubt_ = false;
   if (std::none_of(branches_.begin(), branches_.end(), [](const Branch& b) { return b.stuck; })) return;
   std::vector<double> left(u_.size(), 0);
   for (const Branch& b : branches_) {
@@ -48,53 +51,36 @@ void ConvexNetwork::find_bond_forces() {
   for (std::size_t k = 0; k < u_.size(); ++k) {
     if (row[k] >= 0) phi[row[k]] = touched[at(row[k])] ? -left[k] : 0;
   }
+  if (!equations_.empty()) return share_with_locked_equations(row, phi);
   // Every cluster has its reference: nothing is left open.
-  if (equations_.empty()) {
-    solve_conductances(bonds, phi);
-  } else {
-    share_with_locked_equations(bonds, row, phi);
-  }
+  solve_conductances(bonds, phi);
   const auto potential = [&](int node) { return row[at(node)] < 0 ? 0 : phi[row[at(node)]]; };
-  for (std::size_t k = 0; k < branches_.size(); ++k) {
-    if (branches_[k].stuck) bond_force_[k] = potential(branches_[k].a) - potential(branches_[k].b);
-  }
-}
-
-/// True if all branches that stick can hold their forces, to the round-off of the largest of all forces.
-bool ConvexNetwork::within_bounds() {
-  find_bond_forces();
-  double largest = 0;
-  for (const double load : applied_) largest = std::max(largest, std::abs(load));
-  for (std::size_t k = 0; k < branches_.size(); ++k) largest = std::max(largest, std::abs(force(static_cast<int>(k))));
-  const double rounding = numerics::balance_roundoff * largest;
-  for (std::size_t k = 0; k < branches_.size(); ++k) {
-    const Branch& b = branches_[k];
-    if (b.stuck && (bond_force_[k] > b.law.high + rounding || bond_force_[k] < b.law.low - rounding)) return false;
-  }
-  return true;
-}
-
-/// Releases the branches whose force is beyond its bounds; false if there are none.
-bool ConvexNetwork::release() {
-  find_bond_forces();
-  const std::vector<double>& f = bond_force_;
-  std::vector<std::pair<double, int>> beyond;
   for (std::size_t k = 0; k < branches_.size(); ++k) {
     const Branch& b = branches_[k];
     if (!b.stuck) continue;
-    const bool above = f[k] > b.law.high;
-    const double over = above ? f[k] - b.law.high : b.law.low - f[k];
-    if (over > numerics::balance_roundoff * std::abs(above ? b.law.high : b.law.low)) beyond.push_back({over, static_cast<int>(k)});
+    const double f = bond_force_[k] = potential(b.a) - potential(b.b);
+    const int side = f > b.law.high ? 1 : -1;
+    const double bound = side > 0 ? b.law.high : b.law.low, over = side * (f - bound);
+    if (over > numerics::balance_roundoff * std::abs(bound)) beyond_.push_back({over, static_cast<int>(k), side});
   }
-  std::sort(beyond.begin(), beyond.end(), std::greater<>());
+}
+
+bool ConvexNetwork::bonds_hold() {
+  find_bond_forces();
+  return beyond_.empty() && !in_doubt_;
+}
+
+/// Releases the branches that cannot hold their forces, the worst first in `released_`; false if there are none.
+bool ConvexNetwork::release() {
+  find_bond_forces();
+  std::sort(beyond_.begin(), beyond_.end(), [](const Beyond& p, const Beyond& q) { return std::pair(p.over, p.branch) > std::pair(q.over, q.branch); });
   released_.clear();
-  for (const auto& [over, k] : beyond) {
-    Branch& b = branches_[at(k)];
-    b.stuck = false;
-    b.side = f[at(k)] > b.law.high ? 1 : -1;
+  for (const auto& [over, k, side] : beyond_) {
+    branches_[at(k)].stuck = false;
+    branches_[at(k)].side = side;
     released_.push_back(k);
   }
-  return !beyond.empty();
+  return !beyond_.empty();
 }
 
 /// Releases all branches that slipped before. A branch that does not move sticks again, like any other branch.

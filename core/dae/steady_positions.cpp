@@ -104,7 +104,7 @@ bool SteadyStateSolver::find_positions() {
     problem = position_problem(forces, slip_, slider_branch);
     open = fix_positions(problem, forces.hang);
     const ConvexNetwork::Outcome outcome = problem.solve();
-    take_train_forces(problem, trials);
+    state_.train_force = problem.forces_of_equations();
     again = !agree(trials);
     if (!again) refuse_unbalanced(problem, outcome, std::numeric_limits<double>::infinity());
     const bool balanced = outcome == ConvexNetwork::Outcome::solved;
@@ -123,7 +123,7 @@ bool SteadyStateSolver::find_positions() {
     fix_positions(refined, forces.hang);
     if (refined.solve() != ConvexNetwork::Outcome::solved) break;
     problem = std::move(refined);
-    take_train_forces(problem, trials);
+    state_.train_force = problem.forces_of_equations();
   }
   for (std::size_t k = 0; k < slip_.size(); ++k) {
     if (direction[k] == 0) result_.slider_force[k] = problem.force(slider_branch[k]);
@@ -138,13 +138,6 @@ bool SteadyStateSolver::find_positions() {
                      open.size() > 1 ? "are" : "is", open.size() > 1 ? "they start" : "it starts"));
   }
   return true;
-}
-
-/// Where the force of a train is open, as sticking sliders hold its nodes, the bounds of its losses stay those that let them hold.
-void SteadyStateSolver::take_train_forces(const ConvexNetwork& problem, const TrainForceTrials& trials) {
-  state_.train_force = problem.forces_of_equations();
-  const std::vector<double> trial = trials.trial();
-  for (const std::size_t k : problem.locked_equations()) state_.train_force[k] = trial[k];
 }
 
 void SteadyStateSolver::take_positions(const ConvexNetwork& problem) {

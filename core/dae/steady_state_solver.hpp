@@ -128,7 +128,6 @@ class SteadyStateSolver {
   Forces forces_at_start();
   bool find_positions();
   ConvexNetwork position_problem(const Forces& forces, const std::vector<int>& direction, std::vector<int>& slider_branch, const ConvexNetwork* found = nullptr);
-  void take_train_forces(const ConvexNetwork& problem, const TrainForceTrials& trials);
   void take_positions(const ConvexNetwork& problem);
   std::vector<std::string> fix_positions(ConvexNetwork& problem, DisjointSets& hang) const;
   // steady_contacts.cpp

@@ -53,7 +53,7 @@ bool SteadyStateSolver::find_velocities() {
     return false;
   }
   // The losses at trial forces may be too small to hold the load: only forces that agree with their losses show an overload.
-  take_train_forces(problem, trials_);
+  state_.train_force = problem.forces_of_equations();
   if (!agree(trials_)) return false;
   refuse_unbalanced(problem, outcome, numerics::unresisted_speed * natural_speed(scale));
   slip_.assign(network_.sliders.size(), 0);
@@ -255,7 +255,7 @@ bool SteadyStateSolver::refine_velocities(double scale, TrainForceTrials& trials
   add_rates(problem, scale);
   if (problem.solve() != ConvexNetwork::Outcome::solved) return true;
   take_velocities(problem);
-  take_train_forces(problem, trials);
+  state_.train_force = problem.forces_of_equations();
   return agree(trials);
 }
 

@@ -17,9 +17,10 @@ namespace {
 constexpr double none = std::numeric_limits<double>::infinity();
 
 /// A bound side x[force] >= -width, with width >= 0.
-struct Bound {
+struct WideBound {
   Eigen::Index force = 0;
   double side = 0, width = 0;
+  double share = 1;  ///< in a contradiction
 };
 
 /// The method, for bounds that are `1 + share` times as far as those of the problem.
@@ -39,11 +40,11 @@ class DualActiveSet {
 
   /// Meets all bounds. False if that is impossible: `cut` are the bounds that contradict the load, too narrow by the share `excess` of
   /// those of the problem.
-  bool solve(Eigen::VectorXd& x, std::vector<Bound>& cut, double& excess) {
+  bool solve(Eigen::VectorXd& x, std::vector<WideBound>& cut, double& excess) {
     x = without_bounds_;
     const std::size_t most = numerics::least_rounds + numerics::rounds_a_branch * problem_.low.size();
     for (std::size_t round = 0; round < most; ++round) {
-      Bound worst;
+      WideBound worst;
       if (!most_violated(x, worst)) return true;
       double multiplier = 0;
       while (true) {
@@ -84,14 +85,14 @@ class DualActiveSet {
   }
 
  private:
-  static double slack(const Bound& b, const Eigen::VectorXd& x) { return b.side * x[b.force] + b.width; }
-  Eigen::VectorXd normal_of(const Bound& b) const { return b.side * Eigen::VectorXd::Unit(rows_.rows(), b.force); }
+  static double slack(const WideBound& b, const Eigen::VectorXd& x) { return b.side * x[b.force] + b.width; }
+  Eigen::VectorXd normal_of(const WideBound& b) const { return b.side * Eigen::VectorXd::Unit(rows_.rows(), b.force); }
 
-  bool most_violated(const Eigen::VectorXd& x, Bound& worst) const {
+  bool most_violated(const Eigen::VectorXd& x, WideBound& worst) const {
     double least = 0;
     for (Eigen::Index k = 0; k < x.size(); ++k) {
-      for (const Bound& b : {Bound{k, 1, -(1 + share_) * problem_.low[static_cast<std::size_t>(k)]},
-                             Bound{k, -1, (1 + share_) * problem_.high[static_cast<std::size_t>(k)]}}) {
+      for (const WideBound& b : {WideBound{k, 1, -(1 + share_) * problem_.low[static_cast<std::size_t>(k)]},
+                             WideBound{k, -1, (1 + share_) * problem_.high[static_cast<std::size_t>(k)]}}) {
         const double over = slack(b, x) + numerics::equation_roundoff * b.width + roundoff_;
         if (over >= least) continue;
         least = over;
@@ -109,13 +110,14 @@ class DualActiveSet {
   }
 
   /// The bounds that hold against the load: the normal of `bound` is that share of those of the equations and of active bounds.
-  std::vector<Bound> contradiction(const Bound& bound, const Eigen::VectorXd& share, double& excess) const {
-    std::vector<Bound> cut{bound};
+  std::vector<WideBound> contradiction(const WideBound& bound, const Eigen::VectorXd& share, double& excess) const {
+    std::vector<WideBound> cut{bound};
     double against = bound.width;
     for (std::size_t k = 0; k < active_.size(); ++k) {
       const double by = -share[rows_.cols() + static_cast<Eigen::Index>(k)];
       if (by <= numerics::equal_values) continue;
       cut.push_back(active_[k]);
+      cut.back().share = by;
       against += by * active_[k].width;
     }
     excess = (1 + share_) * (-share.head(rows_.cols()).dot(rows_.transpose() * without_bounds_) / against) - 1;
@@ -127,11 +129,29 @@ class DualActiveSet {
   Eigen::MatrixXd rows_;            ///< orthonormal combinations of the balances, one a column
   Eigen::VectorXd without_bounds_;  ///< forces of least norm
   double roundoff_ = 0;             ///< of forces: a bound of 0 cannot be met better
-  std::vector<Bound> active_;
+  std::vector<WideBound> active_;
   std::vector<double> multipliers_;
 };
 
+bool balances(const LeastNorm& problem, const Eigen::VectorXd& loads, const Eigen::VectorXd& x) {
+  const Eigen::VectorXd size = problem.balance.cwiseAbs() * x.cwiseAbs() + loads.cwiseAbs();
+  if (size.size() == 0) return true;
+  return ((problem.balance * x - loads).cwiseAbs().array() <= numerics::balance_roundoff * size.array() + numerics::equation_roundoff * size.maxCoeff()).all();
+}
+
 }  // namespace
+
+bool LeastNorm::solve_within(const std::vector<double>& load, std::vector<double>& force, std::vector<Bound>& contradiction) const {
+  const Eigen::VectorXd loads = Eigen::Map<const Eigen::VectorXd>(load.data(), static_cast<Eigen::Index>(load.size()));
+  Eigen::VectorXd x;
+  std::vector<WideBound> cut;
+  double excess = 0;
+  const bool within = DualActiveSet(*this, loads, 0).solve(x, cut, excess);
+  contradiction.clear();
+  for (const auto& [place, side, width, share] : cut) contradiction.push_back({static_cast<std::size_t>(place), side > 0 ? -1 : 1, share});
+  force.assign(x.begin(), x.end());
+  return within ? balances(*this, loads, x) : !cut.empty();
+}
 
 bool LeastNorm::solve(const std::vector<double>& load, std::vector<double>& force) const {
   const Eigen::VectorXd loads = Eigen::Map<const Eigen::VectorXd>(load.data(), static_cast<Eigen::Index>(load.size()));
@@ -147,10 +167,10 @@ bool LeastNorm::solve(const std::vector<double>& load, std::vector<double>& forc
     const Eigen::VectorXd left = loads - balance * x;
     Eigen::VectorXd found;
     // Each contradiction shows by how much all bounds must at least be wider: the last one decides (Dinkelbach 1967).
-    std::vector<Bound> worst;
+    std::vector<WideBound> worst;
     double share = 0;
     while (true) {
-      std::vector<Bound> cut;
+      std::vector<WideBound> cut;
       double excess = 0;
       if (DualActiveSet(rest, left, share).solve(found, cut, excess)) break;
       if (cut.empty() || !std::isfinite(excess)) return false;
@@ -167,7 +187,7 @@ bool LeastNorm::solve(const std::vector<double>& load, std::vector<double>& forc
       }
       break;
     }
-    for (const auto& [place, side, width] : worst) {
+    for (const auto& [place, side, width, by] : worst) {
       Eigen::Index& k = open[static_cast<std::size_t>(place)];
       x[k] = (1 + share) * (side > 0 ? rest.low : rest.high)[static_cast<std::size_t>(place)];
       k = -1;
@@ -175,8 +195,7 @@ bool LeastNorm::solve(const std::vector<double>& load, std::vector<double>& forc
     std::erase(open, -1);
   }
   force.assign(x.begin(), x.end());
-  const Eigen::VectorXd size = balance.cwiseAbs() * x.cwiseAbs() + loads.cwiseAbs();
-  return ((balance * x - loads).cwiseAbs().array() <= numerics::balance_roundoff * size.array() + numerics::equation_roundoff * size.maxCoeff()).all();
+  return balances(*this, loads, x);
 }
 
 }  // namespace rheonet

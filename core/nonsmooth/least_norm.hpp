@@ -20,6 +20,15 @@ struct LeastNorm {
 
   /// `load`: of each row [N], finite. Writes the forces; false if round-off prevents an answer.
   bool solve(const std::vector<double>& load, std::vector<double>& force) const;
+
+  /// A bound that holds against a load, with others.
+  struct Bound {
+    std::size_t force;
+    int side;      ///< 1: `high`, -1: `low`
+    double share;  ///< of its normal in the contradiction, above 0
+  };
+  /// The same, but where nothing within the bounds balances the loads it writes the bounds that contradict them, and no forces.
+  bool solve_within(const std::vector<double>& load, std::vector<double>& force, std::vector<Bound>& contradiction) const;
 };
 
 }  // namespace rheonet
