@@ -110,7 +110,7 @@ class ConvexNetwork {
   bool restrained(std::size_t node) const { return fixed_[node] || inertia_[node] > 0 || (tied_[node] && any_inertia_); }
   std::vector<std::vector<double>> equations_of_columns(Eigen::VectorXd& left) const;
   bool step_within_equations(const std::vector<Conductance>& slopes, Eigen::VectorXd& step);
-  void share_with_locked_equations(const std::vector<int>& row, const Eigen::VectorXd& load);
+  void share_with_locked_equations(const std::vector<int>& row, const Eigen::VectorXd& load, double roundoff);
   double torn(const Equation& equation) const;
   void part_torn_equations();
   void meet_equations();
@@ -142,7 +142,7 @@ class ConvexNetwork {
   bool run_away();
   bool flattened(const std::vector<double>& sums);
   double power() const;
-  void find_bond_forces();
+  void find_bond_forces(double roundoff = 0);
   bool bonds_hold();
 
   std::vector<double> origin_;    ///< start value of x

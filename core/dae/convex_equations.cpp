@@ -142,7 +142,7 @@ std::vector<std::size_t> ConvexNetwork::locked_equations() const {
 /// Forces of least norm within the bounds, of the bonds and of locked equations, which take any force. `row`: of each node, its place in
 /// `load`, or -1. Where nothing within the bounds balances the loads, the bonds that contradict them are beyond theirs: if these open, the
 /// nodes can move in a direction in which the loads outweigh all bounds.
-void ConvexNetwork::share_with_locked_equations(const std::vector<int>& row, const Eigen::VectorXd& load) {
+void ConvexNetwork::share_with_locked_equations(const std::vector<int>& row, const Eigen::VectorXd& load, double roundoff) {
   constexpr double unlimited = std::numeric_limits<double>::infinity();
   const std::vector<std::size_t> locked = locked_equations();
   std::vector<std::size_t> bonds;
@@ -163,8 +163,8 @@ void ConvexNetwork::share_with_locked_equations(const std::vector<int>& row, con
     act(b.b, column, -1);
     least.push_back(std::clamp(0.0, b.law.low, b.law.high));
     left -= least.back() * problem.balance.col(column++);
-    problem.low.push_back(b.law.low - least.back());
-    problem.high.push_back(b.law.high - least.back());
+    problem.low.push_back(b.law.low - roundoff - least.back());
+    problem.high.push_back(b.law.high + roundoff - least.back());
   }
   for (const std::size_t e : locked) {
     for (std::size_t i = 0; i < equations_[e].node.size(); ++i) act(equations_[e].node[i], column, equations_[e].factor[i]);

@@ -9,8 +9,8 @@
 
 namespace rheonet {
 
-/// Forces of least norm in the branches that stick: see stick_forces.cpp.
-void ConvexNetwork::find_bond_forces() {
+/// Forces of least norm in the branches that stick: see stick_forces.cpp. Beside equations, bounds are wider by `roundoff`.
+void ConvexNetwork::find_bond_forces(double roundoff) {
   bond_force_.assign(branches_.size(), 0);
   beyond_.clear();
   in_doubt_ = false;
@@ -51,7 +51,7 @@ void ConvexNetwork::find_bond_forces() {
   for (std::size_t k = 0; k < u_.size(); ++k) {
     if (row[k] >= 0) phi[row[k]] = touched[at(row[k])] ? -left[k] : 0;
   }
-  if (!equations_.empty()) return share_with_locked_equations(row, phi);
+  if (!equations_.empty()) return share_with_locked_equations(row, phi, roundoff);
   // Every cluster has its reference: nothing is left open.
   solve_conductances(bonds, phi);
   const auto potential = [&](int node) { return row[at(node)] < 0 ? 0 : phi[row[at(node)]]; };
@@ -65,8 +65,12 @@ void ConvexNetwork::find_bond_forces() {
   }
 }
 
+/// True if the branches that stick can hold their forces, to the round-off of the largest of all forces.
 bool ConvexNetwork::bonds_hold() {
-  find_bond_forces();
+  double largest = 0;
+  for (std::size_t k = 0; k < u_.size(); ++k) largest = std::max({largest, std::abs(applied_[k]), std::abs(inertia_[k] * u_[k])});
+  for (const Branch& b : branches_) largest = std::max(largest, b.stuck ? 0 : std::abs(force(b, b.w, b.side)));
+  find_bond_forces(numerics::balance_roundoff * largest);
   return beyond_.empty() && !in_doubt_;
 }
 

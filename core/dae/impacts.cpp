@@ -123,6 +123,9 @@ double EventTransition::turn_trains(double t, State& state, std::vector<std::str
   return lost;
 }
 
+/// A velocity that an impulse has reduced to this share has stopped: it is round-off.
+constexpr double stopped = numerics::sum_ulps * std::numeric_limits<double>::epsilon();
+
 /// Changes the velocities of masses by impulses,
 ///     minimise 1/2 (v - v0)' M (v - v0) - momentum' v     with     w in the permitted direction, at every law without a bound.
 /// Prescribed velocities change by `jump`. Friction, springs and dashpots take no impulse, but the sliders that stick in `held` do.
@@ -166,8 +169,14 @@ std::vector<double> EventTransition::share_impulses(double t, const std::vector<
   for (double& slip : slips) slip = -slip;
   add_trains(problem, slips);
   if (problem.solve() != ConvexNetwork::Outcome::solved) report_undecided(network_, at_time(*network_.scene, t));
+  std::vector<char> of_train(structure_.kind.size(), 0);  // their velocities follow from those of masses
+  for (const Network::Train& train : network_.trains) {
+    for (const NodeId node : train.node) of_train[at(node)] = structure_.kind[at(node)] != Kind::known;
+  }
   for (std::size_t n = 0; n < structure_.kind.size(); ++n) {
-    if (structure_.kind[n] == Kind::massive) state.velocity[n] = problem.value(slot(static_cast<NodeId>(n)));
+    if (structure_.kind[n] != Kind::massive && !of_train[n]) continue;
+    const double was = state.velocity[n], is = problem.value(slot(static_cast<NodeId>(n)));
+    state.velocity[n] = std::abs(is) <= stopped * std::abs(was) ? 0 : is;
   }
   std::vector<double> impulses(branch.size(), 0);
   for (std::size_t k = 0; k < branch.size(); ++k) {

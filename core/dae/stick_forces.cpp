@@ -12,6 +12,7 @@
 #include "core/base/disjoint_sets.hpp"
 #include "core/base/format_list.hpp"
 #include "core/base/index.hpp"
+#include "core/base/numerics.hpp"
 #include "core/dae/train_force_trials.hpp"
 #include "core/network/adjacent_elements.hpp"
 #include "core/network/overload_report.hpp"
@@ -204,7 +205,11 @@ bool StickForces::solve_with_losses(double t, Shared& shared, std::vector<double
       const std::vector<double> trial = trials.trial();
       bounds(&trial);
       if (!solve()) return false;
-      if (trials.agree(found)) return true;
+      if (!trials.agree(found)) continue;
+      // The losses that follow from these forces differ from those of the trial by round-off, which small ones may not hold.
+      bounds(&found);
+      shared.meet_bounds(numerics::balance_roundoff * size);
+      return true;
     }
     return {};
   };
@@ -219,6 +224,14 @@ void StickForces::Shared::bound(std::size_t slider, double low, double high) {
   if (trains.empty()) return problem.bound(slider, low, high);
   with_trains.low[slider] = low;
   with_trains.high[slider] = high;
+}
+
+/// A force beyond its bound by round-off is set to it, where forces of trains decide on the bound.
+void StickForces::Shared::meet_bounds(double roundoff) {
+  for (std::size_t k = 0; !trains.empty() && k < sliders.size(); ++k) {
+    const double within = std::clamp(force[k], with_trains.low[k], with_trains.high[k]);
+    if (std::abs(force[k] - within) <= roundoff) force[k] = within;
+  }
 }
 
 bool StickForces::Shared::solve() {

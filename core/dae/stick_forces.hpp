@@ -34,6 +34,7 @@ class StickForces {
     std::vector<double> load, force;
     void bound(std::size_t slider, double low, double high);
     bool solve();
+    void meet_bounds(double roundoff);
   };
   bool lossy(const Shared& shared) const;
   bool solve_with_losses(double t, Shared& shared, std::vector<double> found) const;

@@ -35,18 +35,24 @@ bool TrainForceTrials::agree(const std::vector<double>& found) {
 bool TrainForceTrials::endless() const { return count_ > (near_ ? numerics::near_loss_trials : numerics::loss_trials); }
 
 std::vector<TrainForceTrials> TrainForceTrials::around(const Network& network, const Inputs& inputs, double forces) {
-  std::vector<double> first(network.trains.size(), 0);
-  double* force = nullptr;
-  for (std::size_t k = 0; k < first.size(); ++k) {
-    if (!network.trains[k].loss) continue;
-    if (force) return {};
-    force = &first[k];
+  std::vector<std::size_t> lossy;
+  for (std::size_t k = 0; k < network.trains.size(); ++k) {
+    if (network.trains[k].loss) lossy.push_back(k);
   }
   std::vector<TrainForceTrials> result;
   for (double size = numerics::largest_trial * forces; size > numerics::smallest_trial * forces; size /= 8) {
     for (const double sign : {1.0, -1.0}) {
-      *force = sign * size;
-      result.emplace_back(network, inputs, first, forces).near_ = true;
+      std::vector<double> first(network.trains.size(), 0);
+      for (const std::size_t k : lossy) first[k] = sign * size;
+      const auto begin = [&] {
+        result.emplace_back(network, inputs, first, forces).near_ = true;
+      };
+      begin();
+      for (std::size_t i = 0; lossy.size() > 1 && i < lossy.size(); ++i) {
+        first[lossy[i]] *= -1;
+        begin();
+        first[lossy[i]] *= -1;
+      }
     }
   }
   return result;

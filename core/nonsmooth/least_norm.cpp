@@ -173,7 +173,14 @@ bool LeastNorm::solve(const std::vector<double>& load, std::vector<double>& forc
       std::vector<WideBound> cut;
       double excess = 0;
       if (DualActiveSet(rest, left, share).solve(found, cut, excess)) break;
-      if (cut.empty() || !std::isfinite(excess)) return false;
+      if (cut.empty()) return false;
+      if (!std::isfinite(excess)) {
+        // No share of bounds that are all 0 holds anything: they take the load as bounds of equal width would.
+        const double width = numerics::equation_roundoff * loads.lpNorm<Eigen::Infinity>();
+        if (width == 0 || std::none_of(cut.begin(), cut.end(), [](const WideBound& b) { return b.width == 0; })) return false;
+        for (const WideBound& b : cut) (b.side > 0 ? rest.low : rest.high)[static_cast<std::size_t>(b.force)] = -b.side * width;
+        continue;
+      }
       if (excess <= share + numerics::balance_roundoff * (1 + share)) break;  // the same contradiction, but for its round-off
       share = excess;
       worst = std::move(cut);
