@@ -173,7 +173,7 @@ struct CommandLine {
         {"effects", Name::effects, "measure what each physical effect of a scene contributes and costs", footer_of_effects, &Line::add_effects},
         {"compare", Name::compare, "simulate scenes and measure how far they are from the first", footer_of_compare, &Line::add_compare},
         {"precision", Name::precision, "measure error and cost of a scene at many accuracies", footer_of_precision, &Line::add_precision},
-        {"sweep", Name::sweep, "simulate a scene for many parameter values, on all processors, into one CSV file", footer_of_sweep, &Line::add_sweep},
+        {"sweep", Name::sweep, "simulate a scene for many parameter values, on all processors or many machines, into one table", footer_of_sweep, &Line::add_sweep},
         {"plot", Name::plot, "draw curves of scenes and of CSV files", footer_of_plot, &Line::add_plot},
         {"draw", Name::draw, "draw the schematic of a scene", footer_of_draw, &Line::add_draw},
         {"report", Name::report, "write an HTML page of scenes and their results", footer_of_report, &Line::add_report},
@@ -219,7 +219,7 @@ struct CommandLine {
 
   void add_run(CLI::App* run) {
     add_scene(run);
-    run->add_option("-o,--output", arguments.output, "file for the rows; `-`, the default, is standard output")
+    run->add_option("-o,--output", arguments.output, "file for the rows: .csv, .nc or .mat; `-`, the default, is CSV on standard output")
         ->type_name("FILE");
     run->add_option("--events", arguments.events, "file for the list of events: time, element, event, direction")
         ->type_name("FILE");

@@ -76,6 +76,7 @@ class SweepJob {
   std::vector<MeasureStatistics> results_;
   std::unique_ptr<Output> output_;
   int jobs_ = 1;
+  long merged_failures_ = 0;  ///< rows of runs that failed, in shards
 };
 
 /// What was left by an interrupted sweep. Its last run is simulated again: that it comes out the same tells that the scene
@@ -153,7 +154,12 @@ bool SweepJob::merge() {
       return false;
     }
   bool is_header = true;
-  const auto take = [&](const std::string& lines) { return write(lines, !std::exchange(is_header, false)); };
+  const auto take = [&](const std::string& lines) {
+    if (!is_header)  // the last cell of a row says why the run failed
+      for (std::size_t end = lines.find('\n'); end != lines.npos; end = lines.find('\n', end + 1))
+        if (end > 0 && lines[end - 1] != ',') ++merged_failures_;
+    return write(lines, !std::exchange(is_header, false));
+  };
   const auto merged = merge_shards(options_.merge, runs_, identity_, sweep_.header(), take);
   const NoVariation* wrong = std::get_if<NoVariation>(&merged);
   if (wrong) refuse(*wrong);
@@ -218,7 +224,8 @@ ExitStatus SweepJob::go() {
   const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (statistics_ && !write_statistics()) return not_simulated;
   if (!arguments_.quiet) summarize(left, wall);
-  return sweep_.failed() > 0 || (statistics_ && statistics_->failed() > 0) ? not_simulated : done;
+  const bool failed = sweep_.failed() > 0 || merged_failures_ > 0 || (statistics_ && statistics_->failed() > 0);
+  return failed ? not_simulated : done;
 }
 
 /// Options that do not go together.
@@ -237,6 +244,8 @@ std::optional<NoVariation> contradiction(const Arguments& arguments, const Desig
   if (script && merges) return exclude(engine, "--merge");
   if (script && arguments.output == "-") return NoVariation{fmt::format("`{}` needs the file for the rows of the whole sweep", engine), "-o sweep.csv"};
   if (s.statistics.empty()) return {};
+  if (s.statistics != "-" && !s.statistics.ends_with(".json"))
+    return NoVariation{fmt::format("`--statistics {}`: statistics are written as JSON", s.statistics), "name the file .json"};
   if (s.shard) return NoVariation{"`--statistics` is of all runs, not of a shard", "give it to `--merge`"};
   if (s.measures.empty()) return NoVariation{"`--statistics` is of measures, and none is asked for", "--measure 'max(k1.force)'"};
   if (!design.has_distribution()) return NoVariation{"a grid of values has no distribution for `--statistics`", "draw points: --random 1000"};
