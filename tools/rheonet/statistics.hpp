@@ -1,7 +1,6 @@
 #pragma once
 
-#include <array>
-#include <memory>
+#include <algorithm>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
@@ -31,10 +30,35 @@ struct MeasureStatistics {
   long values = 0;   ///< how many independent runs have one; a group counts only if all of its runs do
   long missing = 0;  ///< how many runs were done and have none
   double least = 0, largest = 0;
-  std::optional<Estimate> mean, deviation;  ///< of at least 2 values
+  std::optional<Estimate> mean, deviation;  ///< of at least 3 values
   std::vector<Quantile> quantiles;
   /// For each range that is drawn from; empty unless the design has groups.
   std::vector<Estimate> first_order, total;
+};
+
+/// Sums over a block of points. Values are relative to the first value of all, so that a large mean costs no digits.
+struct BlockSums {
+  double points = 0, values = 0, of_values = 0, of_squares = 0;
+  std::vector<double> product, difference, square;  ///< for each range: see `first_order` and `total`
+
+  void add(const BlockSums& other, double sign) {
+    points += sign * other.points;
+    values += sign * other.values;
+    of_values += sign * other.of_values;
+    of_squares += sign * other.of_squares;
+    for (std::size_t k = 0; k < product.size(); ++k) {
+      product[k] += sign * other.product[k];
+      difference[k] += sign * other.difference[k];
+      square[k] += sign * other.square[k];
+    }
+  }
+  double variance() const { return std::max(0.0, (of_squares - of_values * of_values / values) / (values - 1)); }
+  /// Saltelli et al. (Computer Physics Communications 181, 2010), table 2, (b), with centred values.
+  double first_order(std::size_t range) const {
+    return (product[range] - of_values / values * difference[range]) / points / variance();
+  }
+  /// Jansen (Computer Physics Communications 117, 1999): table 2, (f), of the same paper.
+  double total(std::size_t range) const { return square[range] / (2 * points) / variance(); }
 };
 
 /// Collects the statistics of a sweep's measures from its rows, one after the other, in constant memory.

@@ -76,6 +76,7 @@ class SweepJob {
   std::vector<MeasureStatistics> results_;
   std::unique_ptr<Output> output_;
   int jobs_ = 1;
+  std::chrono::steady_clock::time_point flushed_;
   long merged_failures_ = 0;  ///< rows of runs that failed, in shards
 };
 
@@ -115,7 +116,12 @@ bool SweepJob::take_left(const Left& left) {
 }
 
 bool SweepJob::write(const std::string& text, bool rows) {
-  if (std::fwrite(text.data(), 1, text.size(), output_->file()) != text.size() || std::fflush(output_->file()) != 0) return false;
+  constexpr std::chrono::milliseconds between_flushes{250};
+  if (std::fwrite(text.data(), 1, text.size(), output_->file()) != text.size()) return false;
+  if (const auto now = std::chrono::steady_clock::now(); now - flushed_ > between_flushes) {
+    flushed_ = now;
+    if (std::fflush(output_->file()) != 0) return false;
+  }
   if (statistics_ && rows) statistics_->take(text);
   return true;
 }

@@ -46,6 +46,8 @@ class NetcdfFile : public TableFile {
         check(nc_def_var(file_, allowed(column.name).c_str(), type, 1, &dimension, &variable));
         constexpr std::size_t chunk = 8192;  // rows
         check(nc_def_var_chunking(file_, variable, NC_CHUNKED, &chunk));
+        constexpr std::size_t cache = 1 << 18, slots = 13;  // bytes for a few chunks: rows come one after the other
+        check(nc_set_var_chunk_cache(file_, variable, cache, slots, 1));
         if (type != NC_STRING) check(nc_def_var_deflate(file_, variable, 1, 1, 1));
         if (!column.unit.empty() && type == NC_DOUBLE) add_text(file_, variable, "units", column.unit);
         add_text(file_, variable, "long_name", column.name);
