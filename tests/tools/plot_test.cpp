@@ -203,8 +203,8 @@ TEST_CASE("run --plot draws the records over time, beside the rows") {
 TEST_CASE("the figure of a run has a file of its own") {
   const Folder folder(scene);
   CHECK(folder.shell("rheonet run -q scene.toml -o a.svg --plot ./a.svg", 2).err ==
-        "error: `--output a.svg`: rows are written as CSV, and `.svg` is another format\n"
-        "  name the file .csv (or .txt, .dat, or without an ending)\n");
+        "error: `--output a.svg`: rows are written as CSV, NetCDF or MAT, and `.svg` is another format\n"
+        "  name the file .csv (or .txt, .dat, or without an ending), .nc or .mat\n");
   CHECK(folder.shell("rheonet run -q scene.toml --plot -", 2).err ==
         "error: `--output` and `--plot` both write to standard output; give one of them another file\n");
   CHECK_FALSE(folder.has("a.svg"));

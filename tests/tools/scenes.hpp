@@ -74,4 +74,16 @@ stop = "1 s"
 output = { points = 11 }
 )";
 
+/// A dashpot B in a drive of 2 m/s for 3 s: its force is 2 B, its heat 12 B.
+inline const char* const dragged_dashpot = R"([parameters]
+B = "3 N*s/m"
+[elements]
+drive = { type = "motion", at = "a", velocity = 2 }
+c = { type = "dashpot", between = ["a", "ground"], damping = "B" }
+[simulate]
+stop = 3
+output = { points = 4 }
+record = ["c.force", "a.position"]
+)";
+
 }  // namespace rheonet::test

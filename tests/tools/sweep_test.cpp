@@ -9,42 +9,15 @@
 #include <string>
 #include <vector>
 
-#include "core/netlist/csv_fields.hpp"
 #include "tests/support/figure.hpp"
 #include "tests/support/program.hpp"
+#include "tests/support/table.hpp"
 #include "tests/tools/scenes.hpp"
 
 using namespace rheonet;
 using namespace rheonet::test;
 
 namespace {
-
-using Row = std::vector<std::string>;
-
-/// The rows of a CSV text, the header first.
-std::vector<Row> table(const std::string& text) {
-  std::vector<Row> rows;
-  std::istringstream lines(text);
-  for (std::string line; std::getline(lines, line);) {
-    rows.emplace_back();
-    for (const CsvField& field : csv_fields(line)) rows.back().emplace_back(field.text);
-  }
-  return rows;
-}
-
-double number(const std::string& cell) { return std::strtod(cell.c_str(), nullptr); }
-
-/// A dashpot B in a drive of 2 m/s for 3 s: its force is 2 B, its heat 12 B.
-const char* const dragged = R"([parameters]
-B = "3 N*s/m"
-[elements]
-drive = { type = "motion", at = "a", velocity = 2 }
-c = { type = "dashpot", between = ["a", "ground"], damping = "B" }
-[simulate]
-stop = 3
-output = { points = 4 }
-record = ["c.force", "a.position"]
-)";
 
 /// So many runs, and a wave in each, that it can be killed on the way.
 const std::string many = "sweep scene.toml --vary k1.stiffness=50:500:20 block_mass.mass=1:3:15 --measure 'min(block.position)' "
@@ -53,7 +26,7 @@ const std::string many = "sweep scene.toml --vary k1.stiffness=50:500:20 block_m
 }  // namespace
 
 TEST_CASE("sweep: a grid, the last value first; measures, values in SI, one row for each run") {
-  const Folder folder(dragged);
+  const Folder folder(dragged_dashpot);
   const Finished result = folder.shell(
       "rheonet sweep scene.toml --vary 'parameters.B=0.1 N*s/m:10 N*s/m:3:log' --vary simulate.stop=1,2 --measure 'max(c.force)' "
       "'energy dissipated' 'mean(a.position)' -o sweep.csv",
@@ -79,7 +52,7 @@ TEST_CASE("sweep: a grid, the last value first; measures, values in SI, one row 
 }
 
 TEST_CASE("sweep: without measures the rows are those of `run`") {
-  const Folder folder(dragged);
+  const Folder folder(dragged_dashpot);
   const auto rows = table(folder.shell("rheonet sweep scene.toml --vary parameters.B=3,4 -q", 0).out);
   const auto alone = table(folder.shell("rheonet run scene.toml --set parameters.B=4 -q", 0).out);
   REQUIRE(rows.size() == 9);
@@ -122,7 +95,7 @@ TEST_CASE("sweep: each measure is what it says, in the part of the run that is l
 }
 
 TEST_CASE("sweep: a Latin hypercube has each stratum of each range once, a seed its points; random draws fill the range") {
-  const Folder folder(dragged);
+  const Folder folder(dragged_dashpot);
   const auto draw = [&](const std::string& how) {
     return folder.shell("rheonet sweep scene.toml --vary 'parameters.B=1 N*s/m:100 N*s/m:log' simulate.stop=1:2 -q --measure steps " + how, 0).out;
   };
@@ -154,7 +127,7 @@ TEST_CASE("sweep: a Latin hypercube has each stratum of each range once, a seed 
 }
 
 TEST_CASE("sweep: a list, with units in its headings; and a grid for each of its rows") {
-  const Folder folder(dragged);
+  const Folder folder(dragged_dashpot);
   folder.write("list.csv", "# two drags\nparameters.B [N*s/cm],drive.velocity\n0.01,2\n\"0.02\",300 cm/s\n");
   const auto rows = table(folder.shell("rheonet sweep scene.toml --list list.csv --vary simulate.stop=1,2 --measure 'final(c.force)' -q", 0).out);
   REQUIRE(rows.size() == 5);
@@ -256,7 +229,7 @@ TEST_CASE("sweep: an interrupt keeps the runs that are done, and says how to go 
 }
 
 TEST_CASE("sweep: what is wrong for every run has status 2, and writes nothing") {
-  const Folder folder(dragged);
+  const Folder folder(dragged_dashpot);
   folder.write("mistaken.toml", mistaken);
   folder.write("list.csv", "parameters.B,\n1,2\n");
   const auto refused = [&](const std::string& command, const std::string& why) {
@@ -293,14 +266,14 @@ TEST_CASE("sweep: what is wrong for every run has status 2, and writes nothing")
 }
 
 TEST_CASE("sweep: its table can be drawn, measures with their units, a failed run as a gap") {
-  const Folder folder(dragged);
+  const Folder folder(dragged_dashpot);
   folder.shell("rheonet sweep scene.toml --vary parameters.B=1,-2,3,4 --measure 'max(c.force)' 'time of max(a.position, from 1 s)' -o sweep.csv -q", 1);
   folder.shell("rheonet plot sweep.csv -x parameters.B -y 'max(c.force)' --domain translation -o force.svg", 0);
   CHECK(contains(folder.read("force.svg"), "force [N]"));
 }
 
 TEST_CASE("sweep: its headings have units, of values, measures and records; `--list` and `plot` read them") {
-  const Folder folder(dragged);
+  const Folder folder(dragged_dashpot);
   const auto header = [&folder](const std::string& options) {
     return table(folder.shell("rheonet sweep scene.toml -q -o - " + options, 0).out)[0];
   };
@@ -310,7 +283,7 @@ TEST_CASE("sweep: its headings have units, of values, measures and records; `--l
   CHECK(header("--vary 'parameters.B=1,2 N*s/m' --vary simulate.stop=1,2") ==
         Row{"run", "parameters.B [N*s/m]", "simulate.stop", "time [s]", "c.force [N]", "a.position [m]", "error"});
   // In a scene of rotation.
-  folder.write("turned.toml", "domain = \"rotation\"\n" + std::string(dragged));
+  folder.write("turned.toml", "domain = \"rotation\"\n" + std::string(dragged_dashpot));
   const std::vector<Row> turned = table(folder.shell("rheonet sweep turned.toml -q -o - --vary 'parameters.B=1 N*m*s/rad,2e7 dyn*cm*s/rad' "
                                                      "--measure 'max(c.force)' 'max(a.position)'", 0).out);
   CHECK(turned[0] == Row{"run", "parameters.B [N*m*s/rad]", "max(c.force) [N*m]", "max(a.position) [rad]", "error"});
@@ -327,7 +300,7 @@ TEST_CASE("sweep: its headings have units, of values, measures and records; `--l
 }
 
 TEST_CASE("sweep: a measure with a comma in it is a column that can be drawn, and no `--domain` is asked for") {
-  const Folder folder(dragged);
+  const Folder folder(dragged_dashpot);
   folder.shell("rheonet sweep scene.toml --vary parameters.B=1,2,3 --measure 'value(c.force, 2 s)' 'max(a.position, from 1 s, to 2 s)' -o s.csv -q", 0);
   const Finished drawn = folder.shell("rheonet plot s.csv -x parameters.B -y 'value(c.force, 2 s),max(a.position, from 1 s, to 2 s)' -o s.svg", 0);
   CHECK(drawn.err == "");
@@ -337,7 +310,7 @@ TEST_CASE("sweep: a measure with a comma in it is a column that can be drawn, an
 }
 
 TEST_CASE("sweep: of rows of many runs each run is a curve of its own, called by its values") {
-  const Folder folder(dragged);
+  const Folder folder(dragged_dashpot);
   folder.shell("rheonet sweep scene.toml --vary 'parameters.B=1 N*s/m,-1 N*s/m,2 N*s/m' -o rows.csv -q", 1);
   const std::string force = folder.shell("rheonet plot rows.csv -y c.force -o -", 0).out;
   CHECK(contains(force, "<desc>force [N] against time [s]: parameters.B = 1 N·s/m, parameters.B = 2 N·s/m</desc>"));

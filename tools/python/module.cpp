@@ -328,6 +328,7 @@ class Source {
       : file_(std::move(file)), text_(std::move(text)), folder_(std::move(folder)) {}
 
   const std::string& file() const { return file_; }
+  py::tuple arguments() const { return py::make_tuple(file_, text_, folder_); }
 
   /// `measures` take the place of the file's claims, which are about the scene without changes. `library`: folders that `include`
   /// falls back on.
@@ -379,6 +380,8 @@ PYBIND11_MODULE(_rheonet, module) {
   py::class_<Source>(module, "Source")
       .def(py::init<std::string, std::optional<std::string>, std::string>(), py::arg("file"), py::arg("text"), py::arg("folder"))
       .def_property_readonly("file", &Source::file)
+      .def_property_readonly("arguments", &Source::arguments)
+      .def("__reduce__", [](const py::object& self) { return py::make_tuple(py::type::of(self), self.attr("arguments")); })
       .def("read", &Source::read, py::arg("overrides"), py::arg("measures"), py::arg("library"), py::call_guard<py::gil_scoped_release>());
 }
 

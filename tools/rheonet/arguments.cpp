@@ -5,8 +5,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
-#include <charconv>
-#include <cmath>
 #include <functional>
 #include <iterator>
 #include <string_view>
@@ -22,11 +20,6 @@
 
 namespace rheonet::tool {
 namespace {
-
-struct WrongCommandLine {
-  std::string message;
-  std::string hint;
-};
 
 std::vector<std::string> long_options(const CLI::App& app) {
   std::vector<std::string> names;
@@ -91,23 +84,6 @@ std::string parse_error_in_words(const CLI::ParseError& error) {
   return fmt::format("`{}` is given more than once", option);
 }
 
-double read_number(const char* option, const std::string& text) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size()) {
-    throw WrongCommandLine{fmt::format("`{}` takes a number such as 1e-6, not `{}`", option, text), ""};
-  }
-  return value;
-}
-
-int read_whole(const char* option, const std::string& text, int least, int most) {
-  const double value = read_number(option, text);
-  if (value >= least && value <= most && value == std::floor(value)) return static_cast<int>(value);
-  throw WrongCommandLine{fmt::format("`{}` takes a whole number from {} to {}, not `{}`", option, least, most, text), ""};
-}
-
-constexpr int most_drawn = 10'000'000;
-
 /// Each once, from the loosest on.
 std::vector<double> read_accuracies(const std::vector<std::string>& texts) {
   const char* const option = "--accuracies";
@@ -139,22 +115,6 @@ ExitStatus report_mistake(const WrongCommandLine& mistake, const CLI::App& app) 
   if (!mistake.hint.empty()) say("  {}\n", printable(mistake.hint));
   say("  `rheonet {}--help` lists the commands and options\n", commands.empty() ? "" : commands.front()->get_name() + " ");
   return wrong_input;
-}
-
-// An option that may be repeated, each time with one value, or several between commas. A comma in brackets does not separate:
-// `value(k1.force, 2 s)` is the name of one column.
-void add_list(CLI::App* command, const char* names, std::vector<std::string>& values, const char* description,
-              const char* type, bool commas = true) {
-  const auto take = [&values, commas](const std::vector<std::string>& given) {
-    for (const std::string& text : given)
-      for (std::string& part : commas ? split_outside_brackets(text) : std::vector<std::string>{text})
-        values.push_back(std::move(part));
-  };
-  command->add_option_function<std::vector<std::string>>(names, take, description)
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-      ->allow_extra_args(false)
-      ->type_name(type);
 }
 
 void add_figure(CLI::App* command, Arguments& arguments) {
@@ -190,7 +150,8 @@ void add_figure(CLI::App* command, Arguments& arguments) {
 /// The commands and options as CLI11 knows them, and what it reads into. A command has its options where it is called.
 struct CommandLine {
   Arguments arguments;
-  std::optional<std::string> accuracy, within, order, runs, random, latin, seed, jobs;
+  std::optional<std::string> accuracy, within, order, runs;
+  SweepTexts sweep_texts;
   std::vector<std::string> accuracies, only;
   CLI::App app{"Simulates one-dimensional mechanical networks: springs, dashpots, friction, masses, drives.\n",
                "rheonet"};
@@ -212,7 +173,7 @@ struct CommandLine {
         {"effects", Name::effects, "measure what each physical effect of a scene contributes and costs", footer_of_effects, &Line::add_effects},
         {"compare", Name::compare, "simulate scenes and measure how far they are from the first", footer_of_compare, &Line::add_compare},
         {"precision", Name::precision, "measure error and cost of a scene at many accuracies", footer_of_precision, &Line::add_precision},
-        {"sweep", Name::sweep, "simulate a scene for many parameter values, on all processors, into one CSV file", footer_of_sweep, &Line::add_sweep},
+        {"sweep", Name::sweep, "simulate a scene for many parameter values, on all processors or many machines, into one table", footer_of_sweep, &Line::add_sweep},
         {"plot", Name::plot, "draw curves of scenes and of CSV files", footer_of_plot, &Line::add_plot},
         {"draw", Name::draw, "draw the schematic of a scene", footer_of_draw, &Line::add_draw},
         {"report", Name::report, "write an HTML page of scenes and their results", footer_of_report, &Line::add_report},
@@ -258,7 +219,7 @@ struct CommandLine {
 
   void add_run(CLI::App* run) {
     add_scene(run);
-    run->add_option("-o,--output", arguments.output, "file for the rows; `-`, the default, is standard output")
+    run->add_option("-o,--output", arguments.output, "file for the rows: .csv, .nc or .mat; `-`, the default, is CSV on standard output")
         ->type_name("FILE");
     run->add_option("--events", arguments.events, "file for the list of events: time, element, event, direction")
         ->type_name("FILE");
@@ -289,18 +250,10 @@ struct CommandLine {
   }
   void add_sweep(CLI::App* sweep) {
     add_scene(sweep);
-    Arguments::Sweep& s = arguments.sweep;
-    add_list(sweep, "--vary", s.vary, "vary the value at this path; may be repeated", "PATH=RANGE", false);
-    sweep->add_option("--list", s.list, "CSV file of values, one run per row")->type_name("FILE");
-    sweep->add_option("--random", random, "draw N random points from the ranges")->type_name("N");
-    sweep->add_option("--latin", latin, "draw N points as a Latin hypercube, which covers each range evenly")->type_name("N");
-    sweep->add_option("--seed", seed, "seed of the random points (default 1)")->type_name("S");
-    add_list(sweep, "--measure", s.measures, "write this measure of each run instead of its rows; may be repeated", "MEASURE", false);
-    sweep->add_option("-o,--output", arguments.output, "file for the rows; `-`, the default, is standard output")
+    add_sweep_options(sweep, arguments.sweep, sweep_texts);
+    sweep->add_option("-o,--output", arguments.output, "file for the rows: .csv, .nc or .mat; `-`, the default, is CSV on standard output")
         ->type_name("FILE");
     add_accuracy(sweep);
-    sweep->add_option("--jobs", jobs, "number of parallel runs (default: the number of processors)")->type_name("J");
-    sweep->add_flag("--resume", s.resume, "continue an interrupted sweep into the same file");
     sweep->add_flag("-q,--quiet", arguments.quiet, "no progress bar and no summary");
   }
   void add_check(CLI::App* check) {
@@ -377,7 +330,7 @@ struct CommandLine {
 
 std::variant<Arguments, ExitStatus> read_arguments(std::vector<std::string> words) {
   CommandLine line(words);
-  auto& [arguments, accuracy, within, order, runs, random, latin, seed, jobs, accuracies, only, app] = line;
+  auto& [arguments, accuracy, within, order, runs, sweep_texts, accuracies, only, app] = line;
 
   arguments.words = words;
   words = with_every_option(words);
@@ -398,10 +351,7 @@ std::variant<Arguments, ExitStatus> read_arguments(std::vector<std::string> word
     if (order) arguments.order = read_whole("--order", *order, 1, 5);
     if (runs) arguments.runs = read_whole("--runs", *runs, 1, 1000);
     arguments.accuracies = read_accuracies(accuracies);
-    if (random) arguments.sweep.random = read_whole("--random", *random, 1, most_drawn);
-    if (latin) arguments.sweep.latin = read_whole("--latin", *latin, 1, most_drawn);
-    if (seed) arguments.sweep.seed = static_cast<std::uint64_t>(read_whole("--seed", *seed, 0, 1'000'000'000));
-    if (jobs) arguments.sweep.jobs = read_whole("--jobs", *jobs, 1, 1024);
+    read_sweep_texts(sweep_texts, arguments.sweep);
     check_reductions(arguments.keep);
     if (!only.empty()) arguments.only = only == std::vector<std::string>{"none"} ? std::vector<std::string>{} : only;
     if (within && !(*arguments.within >= 0))

@@ -1,12 +1,12 @@
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
 #include "tools/rheonet/page_arguments.hpp"
+#include "tools/rheonet/sweep_arguments.hpp"
 
 namespace rheonet::tool {
 
@@ -64,17 +64,7 @@ struct Arguments {
     bool magnitudes = false, marks = false;
   };
   Plot plot;
-  /// Of `sweep`; 0 and empty where nothing is said.
-  struct Sweep {
-    std::vector<std::string> vary;      ///< PATH=RANGE
-    std::string list;                   ///< a CSV file of values
-    long random = 0, latin = 0;         ///< how many points are drawn from the ranges
-    std::optional<std::uint64_t> seed;  ///< of what is drawn
-    std::vector<std::string> measures;
-    int jobs = 0;  ///< 0: one for each processor
-    bool resume = false;
-  };
-  Sweep sweep;
+  SweepArguments sweep;
   ReportArguments report;
   ServeArguments serve;
   std::string title;    ///< of `draw` and `report`; "": that of the scene

@@ -2,13 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Cholesky>
 #include <algorithm>
-#include <numeric>
+#include <cmath>
 #include <set>
 #include <utility>
 
 #include "core/netlist/characters.hpp"
 #include "core/netlist/csv_fields.hpp"
+#include "core/netlist/diagnostic.hpp"
 #include "core/netlist/file_cache.hpp"
 #include "tools/rheonet/words.hpp"
 
@@ -19,21 +21,6 @@ constexpr long most_runs = 10'000'000;  // of an evening on many cores, each a m
 
 using Checked = std::variant<std::monostate, NoVariation>;
 
-/// SplitMix64 (Steele, Lea and Flood, OOPSLA 2014): the number of a place in a sequence, the same on every machine.
-std::uint64_t mixed(std::uint64_t z) {
-  z += 0x9E3779B97F4A7C15U;
-  z = (z ^ (z >> 30U)) * 0xBF58476D1CE4E5B9U;
-  z = (z ^ (z >> 27U)) * 0x94D049BB133111EBU;
-  return z ^ (z >> 31U);
-}
-
-std::uint64_t random_bits(std::uint64_t seed, std::uint64_t draw, std::uint64_t range) {
-  return mixed(mixed(mixed(seed) ^ draw) ^ range);
-}
-
-/// Of [0, 1): 53 bits, as many as a double has.
-double unit_interval(std::uint64_t bits) { return static_cast<double>(bits >> 11U) * 0x1p-53; }
-
 /// A cell of the list, with the unit of its heading if it is a number without one.
 std::string with_unit(std::string_view cell, std::string_view unit) {
   return unit.empty() || !csv_number(cell) ? std::string(cell) : fmt::format("{} {}", cell, unit);
@@ -41,7 +28,7 @@ std::string with_unit(std::string_view cell, std::string_view unit) {
 
 }  // namespace
 
-std::variant<Design, NoVariation> Design::read(const Arguments::Sweep& sweep) {
+std::variant<Design, NoVariation> Design::read(const SweepArguments& sweep) {
   Design design;
   if (!sweep.list.empty()) {
     Checked checked = design.read_list(sweep.list);
@@ -96,19 +83,25 @@ std::variant<std::monostate, NoVariation> Design::read_list(const std::string& f
   return {};
 }
 
-std::variant<std::monostate, NoVariation> Design::read_ranges(const Arguments::Sweep& sweep) {
-  const bool draws = sweep.random > 0 || sweep.latin > 0;
-  if (sweep.random > 0 && sweep.latin > 0) return NoVariation{"`--random` and `--latin` exclude each other", ""};
-  if (sweep.seed && !draws) return NoVariation{"`--seed` is for `--random` and `--latin`", ""};
-  if (draws && sweep.vary.empty()) return NoVariation{"there is no range to draw from", "--vary k1.stiffness=100:1000"};
-  seed_ = sweep.seed.value_or(1);
-  drawn_ = std::max(1L, std::max(sweep.random, sweep.latin));
+std::variant<std::monostate, NoVariation> Design::read_ranges(const SweepArguments& sweep) {
+  const std::pair<const char*, long> ways[] = {{"--random", sweep.random}, {"--latin", sweep.latin}, {"--sobol", sweep.sobol}};
+  const char* way = nullptr;
+  for (const auto& [option, count] : ways) {
+    if (count == 0) continue;
+    if (way) return NoVariation{fmt::format("`{}` and `{}` exclude each other", way, option), ""};
+    way = option;
+    drawn_ = count;
+  }
+  if (!way)
+    for (const auto& [option, given] : {std::pair{"--seed", sweep.seed.has_value()}, {"--correlate", !sweep.correlate.empty()}, {"--sobol-indices", sweep.indices}})
+      if (given) return NoVariation{fmt::format("`{}` is for points that are drawn", option), "--random N, --latin N or --sobol N"};
+  if (way && sweep.vary.empty()) return NoVariation{"there is no range to draw from", "--vary k1.stiffness=100:1000"};
   for (const std::string& text : sweep.vary) {
-    if (draws) {
-      auto range = read_range(text);
-      if (auto* wrong = std::get_if<NoVariation>(&range)) return std::move(*wrong);
-      ranges_.push_back(std::get<Range>(std::move(range)));
-      paths_.push_back(ranges_.back().path);
+    if (way) {
+      auto distribution = read_distribution(text);
+      if (auto* wrong = std::get_if<NoVariation>(&distribution)) return std::move(*wrong);
+      distributions_.push_back(std::get<Distribution>(std::move(distribution)));
+      paths_.push_back(distributions_.back().path);
     } else {
       auto variation = read_variation(text);
       if (auto* wrong = std::get_if<NoVariation>(&variation)) return std::move(*wrong);
@@ -117,30 +110,85 @@ std::variant<std::monostate, NoVariation> Design::read_ranges(const Arguments::S
       if (grid_ <= most_runs) grid_ *= static_cast<long>(variations_.back().values.size());
     }
   }
-  if (grid_ > most_runs || drawn_ > most_runs || rows_ > most_runs / (drawn_ * grid_))
+  if (sweep.indices) {
+    if (!list_.empty()) return NoVariation{"`--sobol-indices` and `--list` exclude each other", ""};
+    group_ = static_cast<long>(distributions_.size()) + 2;
+  }
+  if (grid_ > most_runs || drawn_ > most_runs / group_ || rows_ > most_runs / (drawn_ * group_ * grid_))
     return NoVariation{fmt::format("these are more than {} runs", most_runs), "draw some of them: --latin 1000"};
-  if (sweep.latin > 0)
-    for (std::size_t range = 0; range < ranges_.size(); ++range) {
-      auto& of_range = strata_.emplace_back(static_cast<std::size_t>(drawn_));
-      std::iota(of_range.begin(), of_range.end(), 0U);
-      // Knuth's shuffle (The Art of Computer Programming 2, 3.4.2 P).
-      for (std::size_t k = of_range.size(); k > 1; --k) {
-        const double u = unit_interval(random_bits(~seed_, k, range));
-        std::swap(of_range[k - 1], of_range[static_cast<std::size_t>(u * static_cast<double>(k))]);
+  const std::size_t axes = distributions_.size() * (sweep.indices ? 2 : 1);
+  if (axes > Points::most_dimensions) return NoVariation{fmt::format("points are drawn from at most {} ranges", Points::most_dimensions), ""};
+  using Kind = Points::Kind;
+  points_ = Points(sweep.sobol > 0 ? Kind::sobol : sweep.latin > 0 ? Kind::latin : Kind::random, sweep.seed.value_or(1),
+                   static_cast<std::uint64_t>(drawn_), axes);
+  return read_correlations(sweep);
+}
+
+std::variant<std::monostate, NoVariation> Design::read_correlations(const SweepArguments& sweep) {
+  if (sweep.correlate.empty()) return {};
+  if (sweep.indices)
+    return NoVariation{"`--sobol-indices` and `--correlate` exclude each other: the indices are of independent values", ""};
+  const auto size = static_cast<Eigen::Index>(distributions_.size());
+  Eigen::MatrixXd coefficients = Eigen::MatrixXd::Identity(size, size);
+  for (const std::string& text : sweep.correlate) {
+    const auto wrong = [&](const std::string& what, const std::string& hint) { return NoVariation{fmt::format("`--correlate {}`: {}", text, what), hint}; };
+    const std::size_t equals = text.rfind('=');
+    const std::vector<std::string> names = split(text.substr(0, equals), ',');
+    const auto coefficient = equals == text.npos ? std::nullopt : csv_number(text.substr(equals + 1));
+    if (names.size() != 2 || !coefficient) return wrong("it does not say how two ranges are correlated", "--correlate k1.stiffness,c1.damping=0.6");
+    Eigen::Index axis[2] = {};
+    for (std::size_t k = 0; k < 2; ++k) {
+      const auto found = std::find_if(distributions_.begin(), distributions_.end(), [&](const Distribution& d) { return d.path == names[k]; });
+      if (found == distributions_.end()) {
+        std::vector<std::string> known;
+        for (const Distribution& d : distributions_) known.push_back(d.path);
+        const std::string meant = nearest(names[k], known);
+        return wrong(fmt::format("`{}` is not drawn", names[k]), meant.empty() ? "`--vary` says what is drawn" : fmt::format("did you mean `{}`?", meant));
       }
+      axis[k] = found - distributions_.begin();
     }
+    if (axis[0] == axis[1]) return wrong("a range is not correlated with itself", "name two");
+    if (!(std::abs(*coefficient) < 1)) return wrong(fmt::format("a coefficient of correlation is between -1 and 1, not {}", *coefficient), "");
+    if (coefficients(axis[0], axis[1]) != 0) return wrong("these two are correlated twice", "");
+    coefficients(axis[0], axis[1]) = coefficients(axis[1], axis[0]) = *coefficient;
+  }
+  const Eigen::LLT<Eigen::MatrixXd> factor(coefficients);
+  if (factor.info() != Eigen::Success)
+    return NoVariation{"no values have these correlations: their matrix is not positive definite",
+                       "give smaller coefficients, or those between the other ranges too"};
+  correlation_ = factor.matrixL();
   return {};
 }
 
-double Design::fraction(long draw, std::size_t range) const {
-  const double u = unit_interval(random_bits(seed_, static_cast<std::uint64_t>(draw), range));
-  if (strata_.empty()) return u;
-  return (strata_[range][static_cast<std::size_t>(draw)] + u) / static_cast<double>(drawn_);
+double Design::probability(long draw, std::size_t member, std::size_t range) const {
+  const auto number = static_cast<std::uint64_t>(draw);
+  const std::size_t count = distributions_.size();
+  if (correlation_.size() == 0) {
+    const bool second = member == 1 || member == range + 2;  // see Design::group
+    return points_.coordinate(number, second ? count + range : range);
+  }
+  double score = 0;
+  for (std::size_t k = 0; k <= range; ++k)
+    score += correlation_(static_cast<Eigen::Index>(range), static_cast<Eigen::Index>(k)) * normal_score(points_.coordinate(number, k));
+  return probability_of_score(score);
+}
+
+std::vector<std::string> Design::listed_values(std::size_t path) const {
+  std::vector<std::string> values;
+  if (const std::size_t listed = list_.empty() ? 0 : list_.front().size(); path < listed) {
+    for (const std::vector<std::string>& row : list_) values.push_back(row[path]);
+    return values;
+  } else {
+    path -= listed;
+  }
+  if (path < variations_.size()) return variations_[path].values;
+  const Distribution& distribution = distributions_[path - variations_.size()];
+  return distribution.values.empty() ? std::vector<std::string>{distribution.quantile(0.5)} : distribution.values;
 }
 
 std::vector<std::string> Design::point(long run) const {
   std::vector<std::string> values;
-  const long inner = drawn_ * grid_;
+  const long inner = drawn_ * group_ * grid_;
   if (!list_.empty()) values = list_[static_cast<std::size_t>(run / inner)];
   long rest = run % inner, stride = inner;
   for (const Variation& variation : variations_) {
@@ -148,7 +196,8 @@ std::vector<std::string> Design::point(long run) const {
     values.push_back(variation.values[static_cast<std::size_t>(rest / stride)]);
     rest %= stride;
   }
-  for (std::size_t range = 0; range < ranges_.size(); ++range) values.push_back(ranges_[range].at(fraction(rest, range)));
+  for (std::size_t range = 0; range < distributions_.size(); ++range)
+    values.push_back(distributions_[range].quantile(probability(rest / group_, static_cast<std::size_t>(rest % group_), range)));
   return values;
 }
 

@@ -1,11 +1,12 @@
 #pragma once
 
-#include <cstdint>
+#include <Eigen/Core>
 #include <string>
 #include <variant>
 #include <vector>
 
-#include "tools/rheonet/arguments.hpp"
+#include "tools/rheonet/points.hpp"
+#include "tools/rheonet/sweep_arguments.hpp"
 #include "tools/rheonet/variation.hpp"
 
 namespace rheonet::tool {
@@ -15,29 +16,37 @@ namespace rheonet::tool {
 class Design {
  public:
   /// What is wrong with the command line instead, or with the file of `--list`.
-  static std::variant<Design, NoVariation> read(const Arguments::Sweep& sweep);
+  static std::variant<Design, NoVariation> read(const SweepArguments& sweep);
 
   const std::vector<std::string>& paths() const { return paths_; }
   /// Where each path was given: "--vary ", "--list values.csv: ".
   const std::vector<std::string>& origins() const { return origins_; }
-  long runs() const { return rows_ * drawn_ * grid_; }
+  long runs() const { return rows_ * drawn_ * group_ * grid_; }
+  /// Runs of each point that is drawn, one after the other. 1; or, for Sobol indices of n ranges, n + 2: all values of a point A,
+  /// all of a second point B, then A with one value after the other replaced by that of B.
+  long group() const { return group_; }
+  /// Every value of a path that is listed: of one that is drawn from an interval, a single one.
+  std::vector<std::string> listed_values(std::size_t path) const;
+  /// A grid has no distribution, nor have points that are drawn again for each row of a list.
+  bool has_distribution() const { return grid_ == 1 && (rows_ == 1 || drawn_ == 1); }
   /// A value for each path, as `--set` takes it; `run` counts from 0. Rows of the list vary most slowly, then the draws
   /// or the first `--vary`.
   std::vector<std::string> point(long run) const;
 
  private:
   std::variant<std::monostate, NoVariation> read_list(const std::string& file);
-  std::variant<std::monostate, NoVariation> read_ranges(const Arguments::Sweep& sweep);
-  /// Of a draw, along one of the ranges.
-  double fraction(long draw, std::size_t range) const;
+  std::variant<std::monostate, NoVariation> read_ranges(const SweepArguments& sweep);
+  std::variant<std::monostate, NoVariation> read_correlations(const SweepArguments& sweep);
+  /// Of the value of a range in a member of a group.
+  double probability(long draw, std::size_t member, std::size_t range) const;
 
   std::vector<std::string> paths_, origins_;
   std::vector<std::vector<std::string>> list_;  ///< its rows
   std::vector<Variation> variations_;           ///< of a grid
-  std::vector<Range> ranges_;                   ///< of what is drawn
-  std::vector<std::vector<std::uint32_t>> strata_;  ///< of a Latin hypercube: for each range, of each draw
-  std::uint64_t seed_ = 0;
-  long rows_ = 1, drawn_ = 1, grid_ = 1;
+  std::vector<Distribution> distributions_;     ///< of what is drawn
+  Points points_;
+  Eigen::MatrixXd correlation_;  ///< Cholesky factor of the correlations of the normal scores; empty: independent
+  long rows_ = 1, drawn_ = 1, group_ = 1, grid_ = 1;
 };
 
 }  // namespace rheonet::tool

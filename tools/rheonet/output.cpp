@@ -89,6 +89,8 @@ Output::Output(const std::string& path, std::size_t bytes, long lines) : Output(
   lines_ = lines;
 }
 
+Output::Output(const std::string& path, std::unique_ptr<TableWriter> table) : Output(path, SimulationMethod::complete) { table_ = std::move(table); }
+
 Output::~Output() {
   abandoned_ = true;  // who has written everything has closed it
   close();
@@ -104,7 +106,16 @@ std::string Output::kept(const char* row) const {
 }
 
 int Output::begin() {
-  if (path_ == "-" || !is_regular(descriptor_)) return 0;
+  if (path_ == "-" || !is_regular(descriptor_)) return table_ ? ESPIPE : 0;
+  if (table_) {
+    try {
+      write_beside();
+      table_->begin(fmt::format("/proc/self/fd/{}", descriptor_).c_str());
+      return 0;
+    } catch (const std::system_error& error) {
+      return error.code().value();
+    }
+  }
   if (manner_ == SimulationMethod::complete) {
     try {
       write_beside();
@@ -128,14 +139,17 @@ void Output::write_beside() {
   descriptor_ = replacement_->descriptor();
 }
 
-long Output::write(const char* text, std::size_t size) {
-  if (error_ != 0) return 0;
-  if (!touched_) {
-    touched_ = true;
-    error_ = begin();
-  }
+std::size_t Output::put(const char* text, std::size_t size) {
   std::size_t written = 0;
-  while (error_ == 0 && written < size) {
+  if (table_ && error_ == 0) {
+    try {
+      table_->take({text, size});
+      written = size;
+    } catch (const std::system_error& error) {
+      error_ = error.code().value();
+    }
+  }
+  while (!table_ && error_ == 0 && written < size) {
     if (finishing_ && is_stalled()) {
       error_ = EAGAIN;
       break;
@@ -147,6 +161,16 @@ long Output::write(const char* text, std::size_t size) {
       error_ = errno;
     }
   }
+  return written;
+}
+
+long Output::write(const char* text, std::size_t size) {
+  if (error_ != 0) return 0;
+  if (!touched_) {
+    touched_ = true;
+    error_ = begin();
+  }
+  const std::size_t written = put(text, size);
   lines_ += std::count(text, text + written, '\n');
   const std::size_t whole = std::string_view(text, written).rfind('\n') + 1;  // 0 for none
   begun_ = whole > 0 ? written - whole : begun_ + written;
@@ -205,6 +229,14 @@ int Output::close() {
   std::fclose(file_);
   file_ = nullptr;
   if (path_ == "-") return error_;
+  if (table_ && touched_ && !abandoned_ && error_ == 0) {
+    try {
+      table_->close();
+    } catch (const std::system_error& error) {
+      error_ = error.code().value();
+    }
+  }
+  table_.reset();
   if (replacement_) {
     if (error_ == 0 && !abandoned_) error_ = replacement_->commit();
     left_alone_ = error_ != 0 || abandoned_;
@@ -233,18 +265,34 @@ bool write_all(Output& output, const std::string& text, const char* row) {
 
 std::unique_ptr<Output> open_output(const std::string& path, Output::SimulationMethod method) { return opened(path, method); }
 
+std::unique_ptr<Output> open_table(const std::string& path, Output::SimulationMethod method, tables::Layout layout) {
+  const TableFormat* const format = table_format(path);
+  if (!format) return open_output(path, method);
+  layout.program = "rheonet " RHEONET_VERSION;
+  try {
+    return std::make_unique<Output>(path, std::make_unique<TableWriter>(*format, std::move(layout)));
+  } catch (const std::system_error& error) {
+    say("error: cannot write to `{}`: {}\n", printable(path), error.code().message());
+  } catch (const std::runtime_error& error) {
+    say("error: cannot write to `{}`: {}\n", printable(path), error.what());
+  }
+  return nullptr;
+}
+
 std::unique_ptr<Output> open_output_after(const std::string& path, std::size_t bytes, long lines) {
   return opened(path, bytes, lines);
 }
 
-bool can_be_table(const std::string& path, const char* option) {
+bool can_be_table(const std::string& path, const char* option, bool any_format) {
   namespace fs = std::filesystem;
   std::error_code failed;
   const std::string ending = fs::path(path).extension().string();
+  if (any_format && table_format(path)) return true;
   if (path == "-" || ending.empty() || ending == ".csv" || ending == ".txt" || ending == ".dat") return true;
   if (fs::exists(path, failed) && !fs::is_regular_file(path, failed)) return true;  // a folder has a message of its own
-  say("error: `{} {}`: rows are written as CSV, and `{}` is another format\n"
-      "  name the file .csv (or .txt, .dat, or without an ending)\n", option, printable(path), printable(ending));
+  say("error: `{} {}`: rows are written as {}, and `{}` is another format\n"
+      "  name the file .csv (or .txt, .dat, or without an ending){}\n", option, printable(path), any_format ? "CSV, NetCDF or MAT" : "CSV", printable(ending),
+      any_format ? ", .nc or .mat" : "");
   return false;
 }
 

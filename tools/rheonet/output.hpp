@@ -6,6 +6,7 @@
 #include <string>
 
 #include "tools/rheonet/replacement.hpp"
+#include "tools/rheonet/table_writer.hpp"
 
 namespace rheonet::tool {
 
@@ -22,6 +23,8 @@ class Output {
   /// A file whose first bytes are kept, so many with so many lines: what is written comes after them, and nothing of what
   /// stood there is lost before.
   Output(const std::string& path, std::size_t bytes, long lines);
+  /// A table of another format, into which the rows of CSV are turned. It takes the place of an existing file when it is closed.
+  Output(const std::string& path, std::unique_ptr<TableWriter> table);
   ~Output();
   Output(const Output&) = delete;
   Output& operator=(const Output&) = delete;
@@ -52,6 +55,8 @@ class Output {
   int begin();
   /// Writes to a temporary file from now on.
   void write_beside();
+  /// Writes to the file, or to the table, whatever its format; sets `error_`. How many bytes are written.
+  std::size_t put(const char* text, std::size_t size);
   void drop_begun_row();
 
   std::string path_;
@@ -70,6 +75,7 @@ class Output {
   bool left_alone_ = false;  ///< closed without a change of the file
   int folder_ = -1;       ///< of the file, while it is replaced
   std::optional<Replacement> replacement_;
+  std::unique_ptr<TableWriter> table_;  ///< nullptr for CSV
 };
 
 /// Opens it; nullptr, and an error message, if that is not possible.
@@ -78,11 +84,15 @@ std::unique_ptr<Output> open_output(const std::string& path, Output::SimulationM
 /// The same for rows as they come after so many bytes, with so many lines, of an earlier writing.
 std::unique_ptr<Output> open_output_after(const std::string& path, std::size_t bytes, long lines);
 
+/// A table of the layout, in the format that the ending of the name says: rows go to the Output as CSV. Without a format of its own
+/// it is CSV.
+std::unique_ptr<Output> open_table(const std::string& path, Output::SimulationMethod method, tables::Layout layout);
+
 /// Writes a text and closes; false, and an error message, if not all is written. `row`: what a line of it is called.
 bool write_all(Output& output, const std::string& text, const char* row);
 
-/// Whether rows can go to a file of this name: they are CSV. Says so if it ends as another format does; `option` is what
-/// names it: "--output".
-bool can_be_table(const std::string& path, const char* option);
+/// Whether rows can go to a file of this name, as CSV, or if `any_format` in one of the formats of `table_format`. Says so if it ends
+/// as another format does; `option` is what names it: "--output".
+bool can_be_table(const std::string& path, const char* option, bool any_format = false);
 
 }  // namespace rheonet::tool

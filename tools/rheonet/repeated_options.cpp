@@ -16,11 +16,13 @@ bool is_measure(const std::string& word) {
   return word[0] != '-' && word.find('(') < word.size() && word.ends_with(')');
 }
 
+bool is_shard_file(const std::string& word) { return word[0] != '-' && !word.ends_with(".toml"); }
+
 }  // namespace
 
 std::vector<std::string> with_every_option(const std::vector<std::string>& words) {
   constexpr std::pair<const char*, bool (*)(const std::string&)> options[] = {
-      {"--set", is_override}, {"--vary", is_override}, {"--measure", is_measure}};
+      {"--set", is_override}, {"--vary", is_override}, {"--measure", is_measure}, {"--merge", is_shard_file}};
   std::vector<std::string> result;
   std::string goes_on;  // the option that may be repeated without its name
   for (const std::string& word : words) {

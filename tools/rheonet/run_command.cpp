@@ -75,6 +75,13 @@ struct Outputs {
   }
 };
 
+tables::Layout layout_of(const Scene& scene) {
+  tables::Layout layout{.title = scene.title, .program = "", .row = "time", .columns = {{"time", "s"}}};
+  for (const Record& record : scene.records)
+    layout.columns.push_back({record.path, unit_of(scene, record).open ? "" : unit_text(scene, record)});
+  return layout;
+}
+
 /// A figure must not change the rows of a run: one is integrated in parts, or certified, only if nobody looks between its rows.
 bool is_looked_into(const Scene& scene, const Arguments& arguments) {
   return !arguments.certify && divide(scene, {}).subscenes.empty();
@@ -99,13 +106,13 @@ ExitStatus run_scene(const Arguments& arguments) {
   if (is_source(arguments.output, "--output", read.sources) || is_source(arguments.events, "--events", read.sources) ||
       is_source(arguments.figure, "--plot", read.sources))
     return wrong_input;
-  if (!can_be_table(arguments.output, "--output") || !can_be_table(arguments.events, "--events")) return wrong_input;
+  if (!can_be_table(arguments.output, "--output", true) || !can_be_table(arguments.events, "--events")) return wrong_input;
 
   const std::atomic<bool>& interrupted = end_on_signals();
   Outputs outputs;
   // The rows that are certified come when they are known to be good: an earlier result stays until then.
   const auto method = arguments.certify ? Output::SimulationMethod::complete : Output::SimulationMethod::as_it_comes;
-  outputs.rows = open_output(arguments.output, method);
+  outputs.rows = open_table(arguments.output, method, layout_of(*read.scene));
   if (!outputs.rows) return wrong_input;
   if (!arguments.events.empty()) {
     outputs.events = open_output(arguments.events, method);

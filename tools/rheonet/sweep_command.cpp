@@ -3,21 +3,30 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cerrno>
 #include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <system_error>
 #include <thread>
+#include <utility>
 
 #include "core/netlist/characters.hpp"
-#include "core/network/component.hpp"
 #include "tools/rheonet/commands.hpp"
 #include "tools/rheonet/design.hpp"
+#include "tools/rheonet/engine_script.hpp"
 #include "tools/rheonet/in_order.hpp"
 #include "tools/rheonet/interrupt.hpp"
 #include "tools/rheonet/output.hpp"
 #include "tools/rheonet/progress.hpp"
 #include "tools/rheonet/reading.hpp"
 #include "tools/rheonet/say.hpp"
+#include "tools/rheonet/shard_file.hpp"
+#include "tools/rheonet/statistics.hpp"
 #include "tools/rheonet/summary.hpp"
 #include "tools/rheonet/sweep_resume.hpp"
+#include "tools/rheonet/sweep_runs.hpp"
 #include "tools/rheonet/sweep_table.hpp"
 
 namespace rheonet::tool {
@@ -35,139 +44,56 @@ ExitStatus refuse(const NoVariation& wrong) {
   return wrong_input;
 }
 
-bool is_error(const Diagnostic& diagnostic) { return diagnostic.severity == Severity::error; }
-
-/// The first mistake of a scene, in a line.
-std::string first_mistake(const ReadResult& read) {
-  const auto& all = read.diagnostics;
-  const auto count = std::count_if(all.begin(), all.end(), is_error);
-  const Diagnostic& first = *std::find_if(all.begin(), all.end(), is_error);
-  std::string text = first.message;
-  if (!first.spot.on_command_line())
-    text = fmt::format("{}:{}:{}: {}", read.sources.files[static_cast<std::size_t>(first.spot.file)].path.string(),
-                       first.spot.line, first.spot.column, text);
-  return count > 1 ? fmt::format("{} (and {} more mistakes)", text, count - 1) : text;
-}
-
-/// Makes the rows of each run.
-class Sweep {
+/// The part of a sweep that one command simulates or joins, and where its rows go.
+class SweepJob {
  public:
-  Sweep(const Arguments& arguments, Design design, SweepTable table)
-      : arguments_(arguments), design_(std::move(design)), table_(std::move(table)) {}
+  SweepJob(const Arguments& arguments, Sweep& sweep)
+      : arguments_(arguments), options_(arguments.sweep), sweep_(sweep), shard_(options_.shard.value_or(Shard{})), runs_(sweep.design().runs()),
+        first_(shard_.first(runs_)), behind_(shard_.end(runs_)), identity_(arguments, sweep.sources()) {
+    if (!options_.statistics.empty()) statistics_.emplace(sweep.design(), sweep.table(), options_.quantiles);
+  }
 
-  const Design& design() const { return design_; }
-  std::string header() const { return table_.header({design_.point(0), design_.point(design_.runs() - 1)}); }
-  std::string key(long run) const { return SweepTable::key(run + 1, design_.point(run)); }
-
-  /// Reads the first run, with a report if that or every other is refused. False: nothing can be simulated. Then the columns of
-  /// rows without measures are known.
-  bool begin();
-
-  /// On any thread.
-  std::optional<std::string> make(long run, const std::atomic<bool>& stop);
-
-  const Sources& sources() const { return first_.sources; }
-  long failed() const { return failed_; }
-  double simulating() const { return simulating_; }
+  ExitStatus go();
 
  private:
-  ReadResult read(const std::vector<std::string>& values);
-  /// Whether what is wrong with a run is wrong with every run: the path of a value, or the scene itself.
-  bool is_wrong_for_all(const ReadResult& refused);
+  std::variant<Left, NoVariation> left() const;
+  bool take_left(const Left& left);
+  bool write(const std::string& text, bool rows = true);
+  /// False, with a message, if the command ends here.
+  bool simulate(const Left& left);
+  bool merge();
+  bool close();
+  bool write_statistics();
+  void summarize(const Left& left, double wall) const;
 
   const Arguments& arguments_;
-  Design design_;
-  SweepTable table_;
-  FileCache cache_;
-  ReadResult first_;
-  std::atomic<long> failed_ = 0;
-  std::atomic<double> simulating_ = 0;  ///< CPU time of the simulations [s]
+  const SweepArguments& options_;
+  Sweep& sweep_;
+  Shard shard_;
+  long runs_, first_, behind_;  ///< runs count from 0
+  SweepIdentity identity_;
+  std::optional<Statistics> statistics_;
+  std::vector<MeasureStatistics> results_;
+  std::unique_ptr<Output> output_;
+  int jobs_ = 1;
+  std::chrono::steady_clock::time_point flushed_;
+  long merged_failures_ = 0;  ///< rows of runs that failed, in shards
 };
-
-ReadResult Sweep::read(const std::vector<std::string>& values) {
-  ReadOptions options = options_of(arguments_);
-  options.claims = false;  // they are about the scene as it stands
-  options.cache = &cache_;
-  options.measures = table_.record_measures();
-  for (std::size_t k = 0; k < values.size(); ++k)
-    options.overrides.push_back(design_.paths()[k] + '=' + values[k]);
-  if (!values.empty()) options.origins = design_.origins();
-  return read_scene(arguments_.scene, declarations(), options);
-}
-
-bool Sweep::is_wrong_for_all(const ReadResult& refused) {
-  const std::size_t set = arguments_.overrides.size();
-  const ReadResult plain = read({});
-  for (const Diagnostic& mistake : refused.diagnostics) {
-    if (!is_error(mistake)) continue;
-    if (mistake.spot.on_command_line()) {
-      // Lines of the command line: those of `--set`, of what is varied, of measures.
-      const std::size_t line = static_cast<std::size_t>(mistake.spot.line) - 1;
-      if (line < set || line >= set + design_.paths().size()) return true;
-      const std::size_t path = count_characters(design_.origins()[line - set] + design_.paths()[line - set]);
-      if (static_cast<std::size_t>(mistake.spot.column) <= path) return true;
-      continue;
-    }
-    const auto same = [&](const Diagnostic& other) {
-      return is_error(other) && other.message == mistake.message && other.spot.file == mistake.spot.file &&
-             other.spot.line == mistake.spot.line && other.spot.column == mistake.spot.column;
-    };
-    if (std::any_of(plain.diagnostics.begin(), plain.diagnostics.end(), same)) return true;
-  }
-  return false;
-}
-
-bool Sweep::begin() {
-  first_ = read(design_.point(0));
-  if (!first_.scene && is_wrong_for_all(first_)) {
-    report_all(first_);
-    return false;
-  }
-  if (first_.scene) {
-    report_all(first_);
-    table_.set_scene(*first_.scene);
-    return true;
-  }
-  for (long run = 1; run < design_.runs(); ++run)
-    if (const ReadResult other = read(design_.point(run)); other.scene) {
-      table_.set_scene(*other.scene);
-      return true;
-    }
-  if (table_.measures()) return true;  // each row says why it failed
-  report_all(first_);
-  return false;
-}
-
-std::optional<std::string> Sweep::make(long run, const std::atomic<bool>& stop) {
-  const std::string begin = key(run);
-  const ReadResult read = this->read(design_.point(run));
-  try {
-    if (!read.scene) throw SimulationError(first_mistake(read));
-    table_.check_records(read.scene->records);
-    std::string text;
-    RunSettings settings;
-    settings.interrupt = &stop;
-    settings.account = table_.needs_account();
-    if (!table_.measures())
-      settings.row = [&](double time, const std::vector<double>& values) { SweepTable::append(text, begin, time, values); };
-    const Summary summary = rheonet::run(*read.scene, settings);
-    simulating_ += summary.cpu_seconds;
-    return table_.measures() ? table_.row(begin, summary) : text;
-  } catch (const SimulationError& error) {
-    if (stop) return {};
-    ++failed_;
-    return table_.failed(begin, error.what());
-  }
-}
 
 /// What was left by an interrupted sweep. Its last run is simulated again: that it comes out the same tells that the scene
 /// and the program are still those.
-std::variant<Left, NoVariation> resume(Sweep& sweep, const std::string& file) {
+std::variant<Left, NoVariation> SweepJob::left() const {
+  const std::string& file = arguments_.output;
   if (file == "-") return NoVariation{"`--resume` needs the file to go on with", "-o sweep.csv"};
-  auto found = what_is_left(file, sweep.header(), sweep.design().runs(), [&](long run) { return sweep.key(run); });
+  auto found = what_is_left(file, {.remark = options_.shard ? first_line(shard_, runs_, identity_) : "",
+                                   .header = sweep_.header(),
+                                   .end = options_.shard ? last_line(shard_) : "",
+                                   .first = first_,
+                                   .behind = behind_,
+                                   .key = [this](long run) { return sweep_.key(run); }});
   const Left* left = std::get_if<Left>(&found);
   if (!left || left->last.empty()) return found;
-  const auto again = sweep.make(left->runs, false);
+  const auto again = sweep_.make(left->runs, false);
   if (again && again->starts_with(left->last)) return found;
   const auto differ = std::mismatch(left->last.begin(), left->last.end(), again->begin(), again->end());
   const auto line = left->lines + 1 + std::count(left->last.begin(), differ.first, '\n');
@@ -177,14 +103,159 @@ std::variant<Left, NoVariation> resume(Sweep& sweep, const std::string& file) {
                      "without `--resume` the file is written anew"};
 }
 
-void summarize(const Sweep& sweep, const Arguments& arguments, long first, long end, int jobs, double wall,
-               const Output& output) {
-  const double cpu = process_cpu_seconds(), simulating = sweep.simulating();
-  say("{}: {} run{}{}{}\n", printable(arguments.scene), end - first, end - first == 1 ? "" : "s", first > 0 ? fmt::format(" more, from run {} on", first + 1) : "",
-      sweep.failed() > 0 ? fmt::format(", of which {} failed: `error` says why", sweep.failed()) : "");
-  say("  rows         {:>12}  to {}\n", output.rows(), output.name());
-  say("  wall time    {:>12}  {} at a time\n", in_time_units(wall), jobs);
-  say("  CPU time     {:>12}  {} in the simulations\n", in_time_units(cpu), in_time_units(simulating));
+/// The rows that were there before count in the statistics, too. False, with a message, if they cannot be read again.
+bool SweepJob::take_left(const Left& left) {
+  if (!statistics_ || left.bytes == 0) return true;
+  std::ifstream in(arguments_.output, std::ios::binary);
+  std::string line;
+  std::getline(in, line);
+  for (long k = 1; k < left.lines && std::getline(in, line); ++k) statistics_->take(line);
+  if (in) return true;
+  say("error: `{}` cannot be read: {}\n", printable(arguments_.output), std::strerror(errno));
+  return false;
+}
+
+bool SweepJob::write(const std::string& text, bool rows) {
+  constexpr std::chrono::milliseconds between_flushes{250};
+  if (std::fwrite(text.data(), 1, text.size(), output_->file()) != text.size()) return false;
+  if (const auto now = std::chrono::steady_clock::now(); now - flushed_ > between_flushes) {
+    flushed_ = now;
+    if (std::fflush(output_->file()) != 0) return false;
+  }
+  if (statistics_ && rows) statistics_->take(text);
+  return true;
+}
+
+bool SweepJob::simulate(const Left& left) {
+  const std::atomic<bool>& interrupted = end_on_signals();
+  Progress progress(!arguments_.quiet && !output_->is_terminal());
+  long end = left.runs;
+  if (left.bytes > 0 || write((options_.shard ? first_line(shard_, runs_, identity_) : "") + sweep_.header(), false))
+    end = do_in_order({.first = left.runs,
+                       .end = behind_,
+                       .jobs = jobs_,
+                       .make = [&](long run, const std::atomic<bool>& stop) { return sweep_.make(run, stop); },
+                       .take = [&](const std::string& text) { return write(text); },
+                       .go_on =
+                           [&](long done) {
+                             progress.update(static_cast<double>(done) / static_cast<double>(behind_ - left.runs));
+                             return !interrupted.load();
+                           }});
+  progress.erase();
+  if (end == behind_ && options_.shard) write(last_line(shard_), false);
+  if (!close()) return false;
+  if (end == behind_) return true;
+  say("error: the sweep was interrupted after {} of {} runs\n{}", end - first_, behind_ - first_, output_->kept("row"));
+  interrupt_is_told();
+  if (arguments_.output != "-" && !table_format(arguments_.output)) say("  with `--resume` it goes on there\n");
+  return false;
+}
+
+bool SweepJob::merge() {
+  std::error_code failed;
+  for (const std::string& file : options_.merge)
+    if (std::filesystem::equivalent(file, arguments_.output, failed)) {
+      say("error: `--output {}` would overwrite a shard\n", printable(file));
+      output_->abandon();
+      return false;
+    }
+  bool is_header = true;
+  const auto take = [&](const std::string& lines) {
+    if (!is_header)  // the last cell of a row says why the run failed
+      for (std::size_t end = lines.find('\n'); end != lines.npos; end = lines.find('\n', end + 1))
+        if (end > 0 && lines[end - 1] != ',') ++merged_failures_;
+    return write(lines, !std::exchange(is_header, false));
+  };
+  const auto merged = merge_shards(options_.merge, runs_, identity_, sweep_.header(), take);
+  const NoVariation* wrong = std::get_if<NoVariation>(&merged);
+  if (wrong) refuse(*wrong);
+  if (wrong && is_header) output_->abandon();
+  return close() && !wrong;
+}
+
+bool SweepJob::close() {
+  const int error = output_->close();
+  if (error != 0) say("error: cannot write to {}: {}\n{}", output_->name(), std::strerror(error), output_->kept("row"));
+  return error == 0;
+}
+
+bool SweepJob::write_statistics() {
+  results_ = statistics_->results();
+  const SweepArguments& o = options_;
+  nlohmann::ordered_json head{{"program", "rheonet " RHEONET_VERSION}, {"scene", arguments_.scene}, {"title", sweep_.title()}, {"runs", runs_}, {"failed", statistics_->failed()}};
+  for (const auto& [way, count] : {std::pair{"random", o.random}, {"latin", o.latin}, {"sobol", o.sobol}})
+    if (count > 0) head["points"] = {{"kind", way}, {"count", count}, {"seed", o.seed.value_or(1)}};
+  const auto output = open_output(o.statistics, Output::SimulationMethod::complete);
+  return output && write_all(*output, as_json(std::move(head), results_, sweep_.design(), sweep_.table()).dump(2) + '\n', "line");
+}
+
+void SweepJob::summarize(const Left& left, double wall) const {
+  if (!options_.merge.empty()) {
+    say("{}: {} runs from {} shard{}\n  rows         {:>12}  to {}\n", printable(arguments_.scene), runs_, options_.merge.size(), options_.merge.size() == 1 ? "" : "s", output_->rows(), output_->name());
+  } else {
+    const double cpu = process_cpu_seconds(), simulating = sweep_.simulating();
+    const long done = behind_ - left.runs;
+    say("{}: {} run{}{}{}{}\n", printable(arguments_.scene), done, done == 1 ? "" : "s",
+        options_.shard ? fmt::format(" of shard {}/{}", shard_.number, shard_.of) : "",
+        left.runs > first_ ? fmt::format(" more, from run {} on", left.runs + 1) : "",
+        sweep_.failed() > 0 ? fmt::format(", of which {} failed: `error` says why", sweep_.failed()) : "");
+    say("  rows         {:>12}  to {}\n", output_->rows() - (options_.shard ? 2 : 0), output_->name());
+    say("  wall time    {:>12}  {} at a time\n", in_time_units(wall), jobs_);
+    say("  CPU time     {:>12}  {} in the simulations\n", in_time_units(cpu), in_time_units(simulating));
+  }
+  if (statistics_) say("{}", in_words(results_, sweep_.design(), sweep_.table()));
+}
+
+ExitStatus SweepJob::go() {
+  Left left;
+  left.runs = first_;
+  if (options_.resume) {
+    auto found = this->left();
+    if (const auto* wrong = std::get_if<NoVariation>(&found)) return refuse(*wrong);
+    left = std::get<Left>(std::move(found));
+    if (!take_left(left)) return wrong_input;
+  }
+  const bool as_it_comes = options_.merge.empty() && !table_format(arguments_.output);
+  output_ = as_it_comes ? open_output_after(arguments_.output, left.bytes, left.lines)
+                        : open_table(arguments_.output, Output::SimulationMethod::complete, sweep_.layout());
+  if (!output_) return wrong_input;
+  const int processors = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  jobs_ = options_.jobs > 0 ? options_.jobs : processors;
+  const auto start = std::chrono::steady_clock::now();
+  if (!options_.merge.empty()) {
+    if (!merge()) return wrong_input;
+  } else if (!simulate(left)) {
+    return not_simulated;
+  }
+  const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  if (statistics_ && !write_statistics()) return not_simulated;
+  if (!arguments_.quiet) summarize(left, wall);
+  const bool failed = sweep_.failed() > 0 || merged_failures_ > 0 || (statistics_ && statistics_->failed() > 0);
+  return failed ? not_simulated : done;
+}
+
+/// Options that do not go together.
+std::optional<NoVariation> contradiction(const Arguments& arguments, const Design& design) {
+  const SweepArguments& s = arguments.sweep;
+  const bool merges = !s.merge.empty(), script = s.slurm || s.parallel;
+  const auto exclude = [](const char* one, const char* other) { return NoVariation{fmt::format("`{}` and `{}` exclude each other", one, other), ""}; };
+  if (s.shard && merges) return exclude("--shard", "--merge");
+  if (s.resume && merges) return exclude("--resume", "--merge");
+  if (s.slurm && s.parallel) return exclude("--slurm", "--parallel");
+  const char* const engine = s.slurm ? "--slurm" : "--parallel";
+  if (const TableFormat* format = table_format(arguments.output); format && (s.resume || s.shard))
+    return NoVariation{fmt::format("`{}` writes CSV, not {}", s.shard ? "--shard" : "--resume", format->ending),
+                       fmt::format("write the shards, or a single one (`--shard 1/1`), as .csv; `--merge` makes {} of them", format->ending)};
+  if (script && s.shard) return exclude(engine, "--shard");
+  if (script && merges) return exclude(engine, "--merge");
+  if (script && arguments.output == "-") return NoVariation{fmt::format("`{}` needs the file for the rows of the whole sweep", engine), "-o sweep.csv"};
+  if (s.statistics.empty()) return {};
+  if (s.statistics != "-" && !s.statistics.ends_with(".json"))
+    return NoVariation{fmt::format("`--statistics {}`: statistics are written as JSON", s.statistics), "name the file .json"};
+  if (s.shard) return NoVariation{"`--statistics` is of all runs, not of a shard", "give it to `--merge`"};
+  if (s.measures.empty()) return NoVariation{"`--statistics` is of measures, and none is asked for", "--measure 'max(k1.force)'"};
+  if (!design.has_distribution()) return NoVariation{"a grid of values has no distribution for `--statistics`", "draw points: --random 1000"};
+  return {};
 }
 
 }  // namespace
@@ -192,57 +263,23 @@ void summarize(const Sweep& sweep, const Arguments& arguments, long first, long 
 ExitStatus sweep_scene(const Arguments& arguments) {
   auto design = Design::read(arguments.sweep);
   if (const auto* wrong = std::get_if<NoVariation>(&design)) return refuse(*wrong);
+  if (const auto wrong = contradiction(arguments, std::get<Design>(design))) return refuse(*wrong);
   auto table = SweepTable::make(std::get<Design>(design).paths(), arguments.sweep.measures);
   if (const auto* wrong = std::get_if<NoVariation>(&table)) return refuse(*wrong);
   Sweep sweep(arguments, std::get<Design>(std::move(design)), std::get<SweepTable>(std::move(table)));
   if (!sweep.begin()) return wrong_input;
-  if (is_source(arguments.output, "--output", sweep.sources()) || !can_be_table(arguments.output, "--output")) return wrong_input;
-
-  const std::atomic<bool>& interrupted = end_on_signals();
-  Left left;
-  if (arguments.sweep.resume) {
-    auto found = resume(sweep, arguments.output);
-    if (const auto* wrong = std::get_if<NoVariation>(&found)) return refuse(*wrong);
-    left = std::get<Left>(std::move(found));
+  if (is_source(arguments.output, "--output", sweep.sources()) || !can_be_table(arguments.output, "--output", true)) return wrong_input;
+  if (is_source(arguments.sweep.statistics, "--statistics", sweep.sources())) return wrong_input;
+  const SweepArguments& options = arguments.sweep;
+  if (options.slurm || options.parallel) {
+    const Division division = divide_sweep(sweep, options.slurm ? slurm : gnu_parallel);
+    fmt::print("{}", options.slurm ? slurm_script(arguments, division) : parallel_script(arguments, division));
+    if (!arguments.quiet)
+      say("{}: {} runs in {} shard{} of about {} of CPU time\n", printable(arguments.scene), sweep.design().runs(), division.shards,
+          division.shards == 1 ? "" : "s", in_time_units(division.shard_seconds));
+    return done;
   }
-  const std::unique_ptr<Output> output = open_output_after(arguments.output, left.bytes, left.lines);
-  if (!output) return wrong_input;
-
-  const long runs = sweep.design().runs();
-  const int processors = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  const int jobs = arguments.sweep.jobs > 0 ? arguments.sweep.jobs : processors;
-  const auto write = [&output](const std::string& text) {
-    return std::fwrite(text.data(), 1, text.size(), output->file()) == text.size() && std::fflush(output->file()) == 0;
-  };
-  Progress progress(!arguments.quiet && !output->is_terminal());
-  const auto start = std::chrono::steady_clock::now();
-  long end = left.runs;
-  if (left.bytes > 0 || write(sweep.header()))
-    end = do_in_order({.first = left.runs,
-                       .end = runs,
-                       .jobs = jobs,
-                       .make = [&](long run, const std::atomic<bool>& stop) { return sweep.make(run, stop); },
-                       .take = write,
-                       .go_on =
-                           [&](long done) {
-                             progress.update(static_cast<double>(done) / static_cast<double>(runs - left.runs));
-                             return !interrupted.load();
-                           }});
-  progress.erase();
-  const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  const int error = output->close();
-  if (error != 0) {
-    say("error: cannot write to {}: {}\n{}", output->name(), std::strerror(error), output->kept("row"));
-    return not_simulated;
-  }
-  if (end < runs) {
-    say("error: the sweep was interrupted after {} of {} runs\n{}", end, runs, output->kept("row"));
-    interrupt_is_told();
-    if (arguments.output != "-") say("  with `--resume` it goes on there\n");
-    return not_simulated;
-  }
-  if (!arguments.quiet) summarize(sweep, arguments, left.runs, end, jobs, wall, *output);
-  return sweep.failed() > 0 ? not_simulated : done;
+  return SweepJob(arguments, sweep).go();
 }
 
 }  // namespace rheonet::tool

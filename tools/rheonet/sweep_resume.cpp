@@ -6,12 +6,13 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <utility>
 
 namespace rheonet::tool {
 
-std::variant<Left, NoVariation> what_is_left(const std::string& file, const std::string& header, long runs,
-                                             const std::function<std::string(long run)>& key) {
+std::variant<Left, NoVariation> what_is_left(const std::string& file, const Expected& expected) {
   Left left;
+  left.runs = expected.first;
   std::ifstream in(file, std::ios::binary);
   if (!in) {
     if (!std::filesystem::exists(file)) return left;  // it was ended before it had any
@@ -27,25 +28,33 @@ std::variant<Left, NoVariation> what_is_left(const std::string& file, const std:
     return true;
   };
   std::string line;
-  if (!next(line)) return left;
-  if (!header.starts_with(line)) return other(1, "names other columns");
-  if (line != header) return left;
-  left.bytes = line.size();
-  left.lines = 1;
-  long run = 0, count = 0;  // of the run whose rows are read: its number, and how many
-  std::string begin = runs > 0 ? key(0) : "";
+  std::size_t bytes = 0;
+  long lines = 0;
+  for (const auto& [text, what] : {std::pair{expected.remark, "is of another shard, scene or command"}, {expected.header, "names other columns"}}) {
+    if (text.empty()) continue;
+    if (!next(line)) return left;
+    if (!text.starts_with(line)) return other(lines + 1, what);
+    if (line != text) return left;
+    bytes += line.size();
+    ++lines;
+  }
+  left.bytes = bytes;
+  left.lines = lines;
+  long run = expected.first, count = 0;  // of the run whose rows are read: its number, and how many
+  std::string begin = run < expected.behind ? expected.key(run) : "";
   while (next(line)) {
+    if (!expected.end.empty() && expected.end.starts_with(line)) break;
     // What is cut short before its values could be a row of this run or of the next.
     if (count > 0 && line.back() != '\n' && begin.starts_with(line)) break;
     const long number = left.lines + count + 1;
     if (!line.starts_with(begin) && !begin.starts_with(line)) {
-      if (count == 0 || ++run >= runs) return other(number, fmt::format("does not begin with `{}`", begin));
+      if (count == 0 || ++run >= expected.behind) return other(number, fmt::format("does not begin with `{}`", begin));
       left.runs = run;
       left.bytes += left.last.size();
       left.lines += count;
       left.last.clear();
       count = 0;
-      begin = key(run);
+      begin = expected.key(run);
       if (!line.starts_with(begin) && !begin.starts_with(line))
         return other(number, fmt::format("does not begin with `{}`", begin));
     }

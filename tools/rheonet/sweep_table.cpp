@@ -67,6 +67,8 @@ std::string heading(const std::string& name, const std::string& unit) {
 
 }  // namespace
 
+bool is_number(const std::string& value) { return number_of(value).has_value(); }
+
 std::variant<SweepTable, NoVariation> SweepTable::make(const std::vector<std::string>& paths,
                                                        const std::vector<std::string>& measures) {
   SweepTable table;
@@ -92,6 +94,18 @@ std::variant<SweepTable, NoVariation> SweepTable::make(const std::vector<std::st
   return table;
 }
 
+std::vector<std::string> SweepTable::measure_names() const {
+  std::vector<std::string> names;
+  for (const Measure& measure : measures_) names.push_back(measure.text);
+  return names;
+}
+
+std::vector<std::string> SweepTable::measure_units() const {
+  std::vector<std::string> units;
+  for (const Measure& measure : measures_) units.push_back(measure.unit);
+  return units;
+}
+
 bool SweepTable::needs_account() const {
   return std::any_of(measures_.begin(), measures_.end(), [](const Measure& m) { return m.figure && m.figure->of_energy; });
 }
@@ -112,13 +126,31 @@ void SweepTable::set_scene(const Scene& scene) {
     records_.push_back({record.path, unit_of(scene, record).open ? "" : unit_text(scene, record)});
 }
 
+std::vector<SweepTable::Heading> SweepTable::headings(const std::vector<std::vector<std::string>>& points) const {
+  std::vector<Heading> all{{"run", "1"}};
+  for (std::size_t k = 0; k < paths_.size(); ++k) all.push_back({paths_[k], unit_of_values(points, k)});
+  if (!measures()) all.push_back({"time", "s"});
+  for (const Measure& measure : measures_) all.push_back({measure.text, measure.unit});
+  for (const RecordColumn& record : records_) all.push_back({record.path, record.unit});
+  all.push_back({"error", ""});
+  return all;
+}
+
 std::string SweepTable::header(const std::vector<std::vector<std::string>>& points) const {
-  std::string text = "run";
-  for (std::size_t k = 0; k < paths_.size(); ++k) text += heading(paths_[k], unit_of_values(points, k));
-  if (!measures()) text += heading("time", "s");
-  for (const Measure& measure : measures_) text += heading(measure.text, measure.unit);
-  for (const RecordColumn& record : records_) text += heading(record.path, record.unit);
-  return text + ",error\n";
+  std::string text;
+  for (const Heading& h : headings(points)) text += heading(h.name, h.unit);
+  return text.substr(1) + '\n';
+}
+
+tables::Layout SweepTable::layout(const std::string& title, const std::vector<std::vector<std::string>>& points, const std::vector<bool>& is_text) const {
+  using Kind = tables::Column::Kind;
+  tables::Layout layout{.title = title, .program = "", .row = measures() ? "run" : "row", .columns = {}};
+  for (const Heading& h : headings(points)) layout.columns.push_back({h.name, h.unit});
+  layout.columns.front().kind = Kind::whole_number;
+  layout.columns.back().kind = Kind::text;
+  for (std::size_t k = 0; k < is_text.size(); ++k)
+    if (is_text[k]) layout.columns[1 + k].kind = Kind::text;
+  return layout;
 }
 
 std::string SweepTable::key(long run, const std::vector<std::string>& values) {

@@ -7,6 +7,7 @@
 #include "core/netlist/scene.hpp"
 #include "core/result/run.hpp"
 #include "tools/rheonet/variation.hpp"
+#include "tools/tables/table_file.hpp"
 
 namespace rheonet::tool {
 
@@ -18,6 +19,9 @@ struct SweepFigure {
   bool of_energy = false;  ///< takes the energy account of a run
 };
 
+/// Whether a value, as `--set` takes it, is a number by itself.
+bool is_number(const std::string& value);
+
 /// The columns of a sweep's table, and its rows as CSV: the number of the run, from 1 on, its values in SI (as text where
 /// that is no number), then for each run one row with its measures, or all of its rows; at last why a run failed. Headings
 /// have units, as in `k1.force [N]`; a number has none.
@@ -28,6 +32,9 @@ class SweepTable {
                                                     const std::vector<std::string>& measures);
 
   bool measures() const { return !measures_.empty(); }
+  std::vector<std::string> measure_names() const;
+  /// Known after `set_scene`; "1" for a number.
+  std::vector<std::string> measure_units() const;
   /// Those that are a record's, for ReadOptions.
   std::vector<std::string> record_measures() const;
   /// One of them takes the energy account of a run.
@@ -35,6 +42,8 @@ class SweepTable {
   /// The scene of a run that could be read says which records the rows have, and the units of measures and records.
   void set_scene(const Scene& scene);
 
+  /// The columns of the header; `is_text`: of each value that is varied, whether it may be something other than a number.
+  tables::Layout layout(const std::string& title, const std::vector<std::vector<std::string>>& points, const std::vector<bool>& is_text) const;
   /// `points`: the values of some runs, which say the units of the columns that hold values.
   std::string header(const std::vector<std::vector<std::string>>& points) const;
   /// The cells that each row of a run begins with: "17,200,", and ends in a comma.
@@ -55,6 +64,11 @@ class SweepTable {
   struct RecordColumn {
     std::string path, unit;
   };
+
+  struct Heading {
+    std::string name, unit;
+  };
+  std::vector<Heading> headings(const std::vector<std::vector<std::string>>& points) const;
 
   std::vector<std::string> paths_;
   std::vector<Measure> measures_;

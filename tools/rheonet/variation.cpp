@@ -3,11 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/math/distributions/normal.hpp>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <limits>
 #include <optional>
 
+#include "core/netlist/diagnostic.hpp"
 #include "tools/rheonet/words.hpp"
 
 namespace rheonet::tool {
@@ -15,7 +18,8 @@ namespace {
 
 constexpr long most_values = 10'000;  // each is as many runs as there are scenes
 const char* const range_forms =
-    "where values are drawn: --vary PATH=from:to, PATH=from:to:log or PATH=value,value,...; how many: --random or --latin";
+    "where values are drawn: --vary PATH=from:to, PATH=from:to:log, PATH=value,value,..., PATH=normal(mean, deviation) or "
+    "PATH=lognormal(median, deviation of ln); how many: --random, --latin or --sobol";
 const char* const forms = "--vary PATH=from:to:count, PATH=from:to:count:log or PATH=value,value,...";
 
 /// "10 N/m".
@@ -104,11 +108,11 @@ struct Ends {
   End from, to;
 };
 
-std::variant<Ends, NoVariation> read_ends(const Parts& parts, bool logarithmic, const char* forms) {
-  const auto from = read_end(parts.parts[0]), to = read_end(parts.parts[1]);
+std::variant<Ends, NoVariation> read_ends(const std::vector<std::string>& parts, bool logarithmic, const char* forms) {
+  const auto from = read_end(parts[0]), to = read_end(parts[1]);
   for (std::size_t i = 0; i < 2; ++i)
     if (!(i == 0 ? from : to))
-      return NoVariation{fmt::format("`{}` is not a number, or one with a unit", parts.parts[i]), forms};
+      return NoVariation{fmt::format("`{}` is not a number, or one with a unit", parts[i]), forms};
   if (!from->unit.empty() && from->unit != to->unit)
     return NoVariation{fmt::format("both ends of a range have one unit, not `{}` and `{}`", from->unit, to->unit),
                        fmt::format("{} to {} {}, say", from->value, to->value, from->unit)};
@@ -119,12 +123,88 @@ std::variant<Ends, NoVariation> read_ends(const Parts& parts, bool logarithmic, 
   return Ends{*from, *to};
 }
 
+/// "normal(200 N/m, 10 N/m)", apart.
+struct Call {
+  std::string name;
+  std::vector<std::string> arguments;
+};
+
+std::optional<Call> called(const std::string& range) {
+  const std::size_t open = range.find('(');
+  if (open == range.npos || open == 0 || range.back() != ')') return {};
+  if (!std::all_of(range.begin(), range.begin() + static_cast<std::ptrdiff_t>(open), [](unsigned char c) { return std::isalpha(c) != 0; })) return {};
+  const std::string inside = range.substr(open + 1, range.size() - open - 2);
+  if (inside.find(')') != inside.npos) return {};  // a list of values that are expressions
+  return Call{range.substr(0, open), split_outside_brackets(inside)};
+}
+
+struct Form {
+  const char* name;
+  Distribution::Kind kind;
+  const char* words;
+};
+constexpr Form distribution_forms[] = {{"uniform", Distribution::Kind::uniform, "uniform(from, to)"},
+                                       {"normal", Distribution::Kind::normal, "normal(mean, deviation)"},
+                                       {"lognormal", Distribution::Kind::lognormal, "lognormal(median, deviation of ln)"}};
+
+const Form* form_of(const std::string& name) {
+  const auto* const form = std::find_if(std::begin(distribution_forms), std::end(distribution_forms), [&](const Form& f) { return f.name == name; });
+  return form == std::end(distribution_forms) ? nullptr : form;
+}
+
+std::variant<Distribution, NoVariation> read_call(const Parts& parts, const Call& call) {
+  using Kind = Distribution::Kind;
+  const Form* const form = form_of(call.name);
+  if (!form) {
+    std::vector<std::string> names;
+    for (const Form& known : distribution_forms) names.emplace_back(known.name);
+    const std::string meant = nearest(call.name, names);
+    return NoVariation{fmt::format("`{}` is not a distribution", call.name),
+                       meant.empty() ? range_forms : fmt::format("did you mean `{}`?", meant)};
+  }
+  const auto wrong = [&](const std::string& what) { return NoVariation{fmt::format("`--vary {}={}`: {}", parts.path, parts.range, what), form->words}; };
+  if (call.arguments.size() != 2) return wrong(fmt::format("`{}` takes 2 numbers, not {}", form->name, call.arguments.size()));
+  Distribution result;
+  result.path = parts.path;
+  result.kind = form->kind;
+  if (form->kind == Kind::uniform) {
+    const auto ends = read_ends(call.arguments, false, form->words);
+    if (const auto* no_range = std::get_if<NoVariation>(&ends)) return *no_range;
+    result.first = std::get<Ends>(ends).from.value;
+    result.second = std::get<Ends>(ends).to.value;
+    result.unit = std::get<Ends>(ends).to.unit;
+    return result;
+  }
+  const auto centre = read_end(call.arguments[0]), deviation = read_end(call.arguments[1]);
+  for (std::size_t i = 0; i < 2; ++i)
+    if (!(i == 0 ? centre : deviation)) return wrong(fmt::format("`{}` is not a number, or one with a unit", call.arguments[i]));
+  result.first = centre->value;
+  result.second = deviation->value;
+  result.unit = centre->unit;
+  const bool relative = deviation->unit == "%";
+  if (relative) result.second /= 100;
+  if (form->kind == Kind::normal) {
+    if (relative) result.second *= std::abs(centre->value);
+    if (!relative && !centre->unit.empty() && centre->unit != deviation->unit)
+      return wrong(fmt::format("mean and deviation have one unit, not `{}` and `{}`", centre->unit, deviation->unit));
+    if (!relative) result.unit = deviation->unit;
+  } else {
+    if (!relative && !deviation->unit.empty()) return wrong(fmt::format("the deviation of ln is a number without a unit, not `{}`", call.arguments[1]));
+    if (!(centre->value > 0)) return wrong(fmt::format("the median must be above 0, but is {}", centre->value));
+  }
+  if (!(result.second > 0)) return wrong(fmt::format("the deviation must be above 0, but is {}", call.arguments[1]));
+  return result;
+}
+
 }  // namespace
 
 std::variant<Variation, NoVariation> read_variation(const std::string& text) {
   auto split = split_variation(text, forms);
   if (auto* wrong = std::get_if<NoVariation>(&split)) return std::move(*wrong);
   const Parts& parts = std::get<Parts>(split);
+  if (const auto call = called(parts.range); call && form_of(call->name))
+    return NoVariation{fmt::format("`{}` is a distribution, and nothing says how many points to draw from it", parts.range),
+                       "--random N, --latin N or --sobol N"};
   Variation variation{parts.path, {}};
   if (parts.parts.size() == 1) {
     auto values = read_list(text, parts, forms);
@@ -135,7 +215,7 @@ std::variant<Variation, NoVariation> read_variation(const std::string& text) {
   const bool logarithmic = parts.parts.size() == 4 && (parts.parts[3] == "log" || parts.parts[2] == "log");
   if (parts.parts.size() != 3 && !logarithmic)
     return NoVariation{fmt::format("`{}` is not a range", parts.range), forms};
-  const auto ends = read_ends(parts, logarithmic, forms);
+  const auto ends = read_ends(parts.parts, logarithmic, forms);
   if (const auto* wrong = std::get_if<NoVariation>(&ends)) return *wrong;
   const auto& [from, to] = std::get<Ends>(ends);
   const std::string& number = parts.parts[parts.parts[2] == "log" ? 3 : 2];
@@ -150,36 +230,55 @@ std::variant<Variation, NoVariation> read_variation(const std::string& text) {
   return variation;
 }
 
-std::string Range::at(double fraction) const {
-  if (!values.empty()) {
-    const double index = std::floor(fraction * static_cast<double>(values.size()));
-    return values[std::min(static_cast<std::size_t>(index), values.size() - 1)];
-  }
-  return joined(fmt::format("{}", between(from, to, fraction, logarithmic)), unit);
+double normal_score(double probability) {
+  constexpr double least = 0x1p-54;
+  return boost::math::quantile(boost::math::normal(), std::clamp(probability, least, 1 - 2 * least));
 }
 
-std::variant<Range, NoVariation> read_range(const std::string& text) {
+double probability_of_score(double score) { return boost::math::cdf(boost::math::normal(), score); }
+
+std::string Distribution::quantile(double probability) const {
+  switch (kind) {
+    case Kind::discrete: {
+      const double index = std::floor(probability * static_cast<double>(values.size()));
+      return values[std::min(static_cast<std::size_t>(index), values.size() - 1)];
+    }
+    case Kind::normal:
+      return joined(fmt::format("{}", first + second * normal_score(probability)), unit);
+    case Kind::lognormal:
+      return joined(fmt::format("{}", first * std::exp(second * normal_score(probability))), unit);
+    case Kind::uniform:
+    case Kind::logarithmic:
+      break;
+  }
+  return joined(fmt::format("{}", between(first, second, probability, kind == Kind::logarithmic)), unit);
+}
+
+std::variant<Distribution, NoVariation> read_distribution(const std::string& text) {
   auto split = split_variation(text, range_forms);
   if (auto* wrong = std::get_if<NoVariation>(&split)) return std::move(*wrong);
   const Parts& parts = std::get<Parts>(split);
-  Range range;
-  range.path = parts.path;
+  if (const auto call = called(parts.range)) return read_call(parts, *call);
+  Distribution result;
+  result.path = parts.path;
   if (parts.parts.size() == 1) {
     auto values = read_list(text, parts, range_forms);
     if (auto* wrong = std::get_if<NoVariation>(&values)) return std::move(*wrong);
-    range.values = std::get<std::vector<std::string>>(std::move(values));
-    return range;
+    result.kind = Distribution::Kind::discrete;
+    result.values = std::get<std::vector<std::string>>(std::move(values));
+    return result;
   }
-  range.logarithmic = parts.parts.size() == 3 && parts.parts[2] == "log";
-  if (parts.parts.size() != 2 && !range.logarithmic)
+  const bool logarithmic = parts.parts.size() == 3 && parts.parts[2] == "log";
+  if (parts.parts.size() != 2 && !logarithmic)
     return NoVariation{fmt::format("`{}` is not a range to draw from", parts.range), range_forms};
-  const auto ends = read_ends(parts, range.logarithmic, range_forms);
+  const auto ends = read_ends(parts.parts, logarithmic, range_forms);
   if (const auto* wrong = std::get_if<NoVariation>(&ends)) return *wrong;
   const auto& [from, to] = std::get<Ends>(ends);
-  range.from = from.value;
-  range.to = to.value;
-  range.unit = to.unit;
-  return range;
+  if (logarithmic) result.kind = Distribution::Kind::logarithmic;
+  result.first = from.value;
+  result.second = to.value;
+  result.unit = to.unit;
+  return result;
 }
 
 }  // namespace rheonet::tool

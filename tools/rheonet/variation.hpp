@@ -21,19 +21,32 @@ struct NoVariation {
 /// same ones.
 std::variant<Variation, NoVariation> read_variation(const std::string& text);
 
-/// A value that is drawn from a range, evenly or, if it is logarithmic, evenly in its logarithm.
-struct Range {
+/// The distribution that a value is drawn from.
+struct Distribution {
+  enum class Kind {
+    uniform,      ///< from `first` to `second`
+    logarithmic,  ///< the same, uniform in its logarithm; both ends have the same sign
+    normal,       ///< of mean `first` and standard deviation `second`
+    lognormal,    ///< of median `first`, > 0; `second` is the standard deviation of the natural logarithm
+    discrete,     ///< each of `values` equally often
+  };
   std::string path;
-  double from = 0, to = 0;
-  bool logarithmic = false;
-  std::string unit;                 ///< of both; "": none
-  std::vector<std::string> values;  ///< if there are any it is one of these
+  Kind kind = Kind::uniform;
+  double first = 0, second = 0;
+  std::string unit;  ///< of the value; "": none
+  std::vector<std::string> values;
 
-  /// As `--set` takes it, every digit of it; `fraction` of the way, of [0, 1).
-  std::string at(double fraction) const;
+  /// The quantile of a probability of [0, 1], as `--set` takes it, with every digit.
+  std::string quantile(double probability) const;
 };
 
-/// Reads "PATH=from:to", "PATH=from:to:log" or "PATH=value,value,...".
-std::variant<Range, NoVariation> read_range(const std::string& text);
+/// Reads "PATH=from:to", "PATH=from:to:log", "PATH=value,value,...", or "PATH=NAME(first, second)" where NAME is uniform, normal or
+/// lognormal. A deviation may be in % (of the mean).
+std::variant<Distribution, NoVariation> read_distribution(const std::string& text);
+
+/// The standard normal variable whose probability of being less is `probability`, and back. A probability of 0 or 1 counts as the
+/// nearest double that has a finite quantile.
+double normal_score(double probability);
+double probability_of_score(double score);
 
 }  // namespace rheonet::tool

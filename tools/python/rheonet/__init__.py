@@ -10,19 +10,18 @@
 Every value is in SI units, as in the CSV files of the command `rheonet run`.
 """
 
-import concurrent.futures
+import functools
 import itertools
 import json
 import os
 import pathlib
-import threading
 import warnings
 from collections.abc import Mapping
 from typing import NamedTuple
 
 import numpy as np
 
-from . import _rheonet
+from . import _parallel, _rheonet
 from ._values import coordinate, setting, toml_of
 
 __version__ = _rheonet.__version__
@@ -158,13 +157,14 @@ class Scene:
         """
         return _run(self._reading, accuracy, certify, threads, progress)
 
-    def sweep(self, changes, measure=None, accuracy=None, jobs=None):
+    def sweep(self, changes, measure=None, accuracy=None, jobs=None, client=None):
         """Simulates the scene for all combinations of values.
 
         changes: the values of each parameter, by path: {"k1.stiffness": ["1 N/mm", "2 N/mm"], "m1.mass": [0.1, 1, 10]}.
         measure: figures of each run in place of its rows, as after `--measure` of the command: ["max(k1.force)"].
         accuracy: as for run().
         jobs: number of runs at a time; None: one for each processor.
+        client: a dask.distributed.Client, on whose workers the runs are simulated; they have to find the same files.
 
         Returns an xarray.Dataset with a dimension and a coordinate for each parameter: numbers if all values have one unit (in
         the attribute "units"; absent for numbers without a unit, which are SI), else text. It holds either the measures, or
@@ -181,16 +181,13 @@ class Scene:
         if not combinations:
             raise ValueError("a sweep needs at least one value of each parameter")
 
-        def outcome(combination, progress):
-            changed = dict(zip(paths, combination))
-            try:
-                result = _run(_read(self._source, {**self._changes, **changed}, measures), accuracy, progress=progress)
-            except (NetlistError, SimulationError) as error:
-                error.add_note(f"in the run with {changed}")
-                raise
-            return result.summary["claims"] if measures else result
-
-        outcomes = _in_parallel(outcome, combinations, jobs)
+        if client is None:
+            run = functools.partial(_outcome, self._source, self._changes, paths, measures, accuracy)
+            outcomes = _parallel.in_threads(run, combinations, jobs)
+        else:
+            source = _parallel.everywhere(*self._source.arguments)
+            run = functools.partial(_portable_outcome, source, self._changes, paths, measures, accuracy)
+            outcomes = _parallel.on_dask(client, run, combinations)
         coordinates = {path: coordinate(path, axis) for path, axis in zip(paths, values)}
         if measures:
             variables = {
@@ -359,22 +356,25 @@ def _run(reading, accuracy=None, certify=False, threads=1, progress=None):
     return result
 
 
-def _in_parallel(function, items, jobs):
-    """The values of function(item, progress) for each item, in their order. The first error ends the runs that `progress` is given to."""
-    stopped = threading.Event()
+def _outcome(source, changes, paths, measures, accuracy, combination, progress=None):
+    """A run of a sweep: its measures, or its Result."""
+    changed = dict(zip(paths, combination))
+    try:
+        result = _run(_read(source, {**changes, **changed}, measures), accuracy, progress=progress)
+    except (NetlistError, SimulationError) as error:
+        error.add_note(f"in the run with {changed}")
+        raise
+    return result.summary["claims"] if measures else result
 
-    def progress(_):
-        if stopped.is_set():
-            raise concurrent.futures.CancelledError
 
-    with concurrent.futures.ThreadPoolExecutor(jobs or os.cpu_count()) as pool:
-        futures = [pool.submit(function, item, progress) for item in items]
-        try:
-            return [future.result() for future in futures]
-        except BaseException:
-            stopped.set()
-            pool.shutdown(wait=False, cancel_futures=True)
-            raise
+def _portable_outcome(*arguments):
+    try:
+        outcome = _outcome(*arguments)
+    except SimulationError as error:
+        portable = SimulationError(error.diagnostics, None)  # its rows stay where they are
+        portable.__notes__ = error.__notes__
+        raise portable from None
+    return _parallel.Rows(outcome) if isinstance(outcome, Result) else outcome
 
 
 def _diagnostics(reading):

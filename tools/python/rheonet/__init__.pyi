@@ -75,6 +75,7 @@ class Scene:
         measure: str | Sequence[str] | None = ...,
         accuracy: float | None = ...,
         jobs: int | None = ...,
+        client: Any = ...,
     ) -> xarray.Dataset: ...
     def explain(self) -> dict[str, Any]: ...
 

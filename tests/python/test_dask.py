@@ -1,0 +1,81 @@
+"""Sweeps on a Dask cluster, on this host alone: against sweeps in threads."""
+
+import os
+import signal
+import threading
+import time
+
+import pytest
+
+import rheonet
+
+distributed = pytest.importorskip("distributed", reason="Dask is missing (Debian: python3-distributed)")
+
+SCENE = """
+title = "let go"
+include = ["spring.toml"]
+[elements]
+m1 = { type = "mass", at = "a", mass = "2 kg" }
+k1 = { type = "soft", between = ["a", "ground"] }
+[nodes]
+a = { position = "1 mm" }
+[simulate]
+stop = 1
+record = ["a.position"]
+"""
+MODEL = """
+[models.soft]
+ports = ["a", "b"]
+parameters = { k = "200 N/m" }
+[models.soft.elements]
+s = { type = "spring", between = ["a", "b"], stiffness = "k" }
+"""
+VALUES = {"k1.k": [50 + k for k in range(400)], "m1.mass": ["1 kg", "2 kg"]}
+
+
+@pytest.fixture(scope="module")
+def cluster():
+    with distributed.LocalCluster(n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None, protocol="tcp://") as cluster:
+        with distributed.Client(cluster) as client:
+            yield client
+
+
+@pytest.fixture
+def scene(tmp_path, monkeypatch):
+    (tmp_path / "scene.toml").write_text(SCENE)
+    (tmp_path / "spring.toml").write_text(MODEL)
+    monkeypatch.chdir(tmp_path)
+    return rheonet.load("scene.toml", {"simulate.stop": 2})
+
+
+def test_measures_are_those_of_threads(cluster, scene):
+    measures = ["min(a.position)", "time of min(a.position)"]
+    assert scene.sweep(VALUES, measures, client=cluster).identical(scene.sweep(VALUES, measures))
+
+
+def test_rows_are_those_of_threads(cluster, scene):
+    few = {"k1.k": VALUES["k1.k"][:30]}
+    assert scene.sweep(few, client=cluster).identical(scene.sweep(few))
+    text = rheonet.loads(SCENE)
+    assert text.sweep(few, client=cluster).identical(text.sweep(few))
+
+
+def test_a_killed_worker_loses_nothing(cluster, scene):
+    def kill():
+        time.sleep(0.3)
+        os.kill(pids[0], signal.SIGKILL)
+
+    pids = list(cluster.run(os.getpid).values())
+    killer = threading.Thread(target=kill)
+    expected = scene.sweep(VALUES, "min(a.position)")
+    killer.start()
+    found = scene.sweep(VALUES, "min(a.position)", client=cluster)
+    killer.join()
+    assert found.identical(expected)
+
+
+def test_an_error_says_which_run(cluster, scene):
+    with pytest.raises(rheonet.NetlistError) as error:
+        scene.sweep({"k1.k": [100, 200, -3]}, "min(a.position)", client=cluster)
+    assert "in the run with {'k1.k': -3}" in error.value.__notes__
+    assert "must be" in error.value.message

@@ -1,0 +1,82 @@
+"""Runs of a sweep side by side: in threads, or as tasks of a Dask cluster."""
+
+import concurrent.futures
+import math
+import os
+import pathlib
+import threading
+import time
+
+import numpy as np
+
+from . import _rheonet
+
+TASK_COST = 3e-3  # s; what Dask's scheduler spends on an empty task
+LEAST_SHARE = 100  # of that time a task simulates at least as much
+SCHEDULED_AT_ONCE = 10_000  # tasks that the scheduler holds: beyond it, tasks are longer
+
+
+def in_threads(function, items, jobs):
+    """The values of function(item, progress) for each item, in their order. The first error ends the runs that `progress` is given to."""
+    stopped = threading.Event()
+
+    def progress(_):
+        if stopped.is_set():
+            raise concurrent.futures.CancelledError
+
+    with concurrent.futures.ThreadPoolExecutor(jobs or os.cpu_count()) as pool:
+        futures = [pool.submit(function, item, progress) for item in items]
+        try:
+            return [future.result() for future in futures]
+        except BaseException:
+            stopped.set()
+            pool.shutdown(wait=False, cancel_futures=True)
+            raise
+
+
+class Rows(dict):
+    """The records of a run, as in a Result, that can be sent to another process."""
+
+    def __init__(self, result):
+        super().__init__({name: np.array(result[name]) for name in result})
+        self.time = np.array(result.time)
+        self.units = result.units
+
+    def __reduce__(self):
+        return _rows, (dict(self), self.time, self.units)
+
+
+def _rows(records, times, units):
+    rows = Rows.__new__(Rows)
+    rows.update(records)
+    rows.time, rows.units = times, units
+    return rows
+
+
+def everywhere(file, text, folder):
+    """A netlist that can be read on every host that shares this folder."""
+    if text is None:
+        return _rheonet.Source(str(pathlib.Path(file).absolute()), None, folder)
+    return _rheonet.Source(file, text, str(pathlib.Path(folder).absolute()))
+
+
+def on_dask(client, function, items):
+    """The values of function(item) for each item, in their order, computed by the workers of `client`, a dask.distributed.Client. The
+    first item is computed here, to find how many of the others make a task long enough. The first error ends all tasks."""
+    start = time.perf_counter()
+    results = [function(items[0])]
+    seconds = max(time.perf_counter() - start, 1e-6)
+    rest = items[1:]
+    size = max(math.ceil(LEAST_SHARE * TASK_COST / seconds), math.ceil(len(rest) / SCHEDULED_AT_ONCE), 1)
+    groups = [rest[k : k + size] for k in range(0, len(rest), size)]
+    tasks = client.map(_group, groups, function=function, pure=False)
+    try:
+        for group in client.gather(tasks):
+            results += group
+    finally:
+        client.cancel(tasks)
+    return results
+
+
+def _group(items, function):
+    return [function(item) for item in items]

@@ -1,0 +1,219 @@
+#include "tools/rheonet/statistics.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <boost/math/distributions/binomial.hpp>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <numeric>
+
+#include "core/netlist/csv_fields.hpp"
+
+namespace rheonet::tool {
+namespace {
+
+constexpr std::size_t most_blocks = 100;  // of the jackknife: an error is then known to 7 %
+
+/// An estimate from the sums of all blocks; its error by leaving out one block after the other (delete-a-group jackknife).
+Estimate jackknifed(const std::vector<BlockSums>& blocks, const std::function<double(const BlockSums&)>& estimate) {
+  BlockSums all = blocks.front();
+  for (std::size_t k = 1; k < blocks.size(); ++k) all.add(blocks[k], 1);
+  std::vector<double> without;
+  for (const BlockSums& block : blocks) {
+    if (block.points == 0) continue;
+    BlockSums others = all;
+    others.add(block, -1);
+    without.push_back(estimate(others));
+  }
+  const auto count = static_cast<double>(without.size());
+  const double mean = std::accumulate(without.begin(), without.end(), 0.0) / count;
+  double squares = 0;
+  for (const double value : without) squares += (value - mean) * (value - mean);
+  return {estimate(all), std::sqrt((count - 1) / count * squares)};
+}
+
+/// Empirical quantiles, linear between the order statistics (Hyndman and Fan's definition 7), and the ranks that bracket the true
+/// quantile with at least 95 % probability (from the binomial distribution).
+std::vector<Quantile> quantiles_of(OrderStatistics& values, const std::vector<double>& probabilities) {
+  constexpr double outside = 0.025;  // on each side
+  const long count = values.count();
+  std::vector<long> ranks;
+  struct Ranks {
+    double position;  ///< between ranks, from 1 on
+    long from, to;    ///< 0, count + 1: none
+  };
+  std::vector<Ranks> of_each;
+  for (const double p : probabilities) {
+    const boost::math::binomial below(static_cast<double>(count), p);
+    Ranks r{1 + p * static_cast<double>(count - 1), static_cast<long>(boost::math::quantile(below, outside)),
+            static_cast<long>(boost::math::quantile(complement(below, outside))) + 1};
+    of_each.push_back(r);
+    for (const long rank : {static_cast<long>(std::floor(r.position)), static_cast<long>(std::ceil(r.position)), r.from, r.to})
+      if (rank >= 1 && rank <= count) ranks.push_back(rank);
+  }
+  std::sort(ranks.begin(), ranks.end());
+  ranks.erase(std::unique(ranks.begin(), ranks.end()), ranks.end());
+  const std::vector<double> found = values.of_ranks(ranks);
+  const auto at_rank = [&](long rank) -> std::optional<double> {
+    const auto place = std::lower_bound(ranks.begin(), ranks.end(), rank);
+    if (place == ranks.end() || *place != rank) return {};
+    return found[static_cast<std::size_t>(place - ranks.begin())];
+  };
+  std::vector<Quantile> result;
+  for (std::size_t k = 0; k < probabilities.size(); ++k) {
+    const Ranks& r = of_each[k];
+    const double low = *at_rank(static_cast<long>(std::floor(r.position))), high = *at_rank(static_cast<long>(std::ceil(r.position)));
+    result.push_back({probabilities[k], std::lerp(low, high, r.position - std::floor(r.position)), at_rank(r.from), at_rank(r.to)});
+  }
+  return result;
+}
+
+}  // namespace
+
+struct Statistics::Accumulator {
+  OrderStatistics values;
+  std::vector<BlockSums> blocks;
+  long missing = 0;
+  std::optional<double> origin;  ///< the first value
+};
+
+Statistics::Statistics(const Design& design, const SweepTable& table, std::vector<double> probabilities)
+    : first_column_(1 + design.paths().size()), columns_(table.measure_names().size()), runs_(design.runs()), group_size_(design.group()),
+      probabilities_(std::move(probabilities)), accumulators_(columns_) {
+  const auto groups = static_cast<std::size_t>(runs_ / group_size_);
+  const auto ranges = static_cast<std::size_t>(std::max(0L, group_size_ - 2));
+  BlockSums none;
+  none.product = none.difference = none.square = std::vector<double>(ranges, 0.0);
+  for (Accumulator& accumulator : accumulators_) accumulator.blocks.assign(std::min(most_blocks, groups), none);
+}
+
+Statistics::~Statistics() = default;
+
+void Statistics::take(std::string_view rows) {
+  for (std::size_t begin = 0; begin < rows.size();) {
+    const std::size_t end = std::min(rows.find('\n', begin), rows.size());
+    take_row(rows.substr(begin, end - begin));
+    begin = end + 1;
+  }
+}
+
+void Statistics::take_row(std::string_view row) {
+  const std::vector<CsvField> fields = csv_fields(row);
+  const bool failed = !fields.back().text.empty();
+  if (failed) ++failed_;
+  std::vector<double>& values = group_.emplace_back();
+  for (std::size_t k = 0; k < columns_; ++k) {
+    const std::optional<double> value = csv_number(fields[first_column_ + k]);
+    values.push_back(value.value_or(std::numeric_limits<double>::quiet_NaN()));
+    if (!value && !failed) ++accumulators_[k].missing;
+  }
+  if (static_cast<long>(group_.size()) == group_size_) take_group();
+}
+
+void Statistics::take_group() {
+  // Of a group, the runs of the points A and B are independent.
+  const std::size_t independent = std::min<std::size_t>(2, group_.size());
+  const auto number = static_cast<std::size_t>(taken_++);
+  for (std::size_t k = 0; k < columns_; ++k) {
+    Accumulator& a = accumulators_[k];
+    if (std::any_of(group_.begin(), group_.end(), [k](const std::vector<double>& run) { return std::isnan(run[k]); })) continue;
+    if (!a.origin) a.origin = group_[0][k];
+    BlockSums& sums = a.blocks[number * a.blocks.size() / static_cast<std::size_t>(runs_ / group_size_)];
+    const auto relative = [&](std::size_t run) { return group_[run][k] - *a.origin; };
+    sums.points += 1;
+    for (std::size_t run = 0; run < independent; ++run) {
+      a.values.add(group_[run][k]);
+      sums.values += 1;
+      sums.of_values += relative(run);
+      sums.of_squares += relative(run) * relative(run);
+    }
+    for (std::size_t range = 0; range < sums.product.size(); ++range) {
+      const double changed = relative(range + 2) - relative(0);
+      sums.product[range] += relative(1) * changed;
+      sums.difference[range] += changed;
+      sums.square[range] += changed * changed;
+    }
+  }
+  group_.clear();
+}
+
+std::vector<MeasureStatistics> Statistics::results() {
+  std::vector<MeasureStatistics> all;
+  for (Accumulator& a : accumulators_) {
+    MeasureStatistics& s = all.emplace_back();
+    s.values = a.values.count();
+    s.missing = a.missing;
+    if (s.values == 0) continue;
+    const std::vector<double> ends = a.values.of_ranks({1, s.values});
+    s.least = ends.front();
+    s.largest = ends.back();
+    s.quantiles = quantiles_of(a.values, probabilities_);
+    double points = 0;
+    for (const BlockSums& block : a.blocks) points += block.points;
+    if (points < 3) continue;  // fewer have no jackknife of the deviation
+    s.deviation = jackknifed(a.blocks, [](const BlockSums& sums) { return std::sqrt(sums.variance()); });
+    BlockSums total = a.blocks.front();
+    for (std::size_t k = 1; k < a.blocks.size(); ++k) total.add(a.blocks[k], 1);
+    s.mean = Estimate{*a.origin + total.of_values / total.values, s.deviation->value / std::sqrt(total.values)};
+    if (s.deviation->value == 0) continue;  // nothing has an influence
+    for (std::size_t range = 0; range < total.product.size(); ++range) {
+      s.first_order.push_back(jackknifed(a.blocks, [range](const BlockSums& sums) { return sums.first_order(range); }));
+      s.total.push_back(jackknifed(a.blocks, [range](const BlockSums& sums) { return sums.total(range); }));
+    }
+  }
+  return all;
+}
+
+nlohmann::ordered_json as_json(nlohmann::ordered_json head, const std::vector<MeasureStatistics>& all, const Design& design, const SweepTable& table) {
+  using Json = nlohmann::ordered_json;
+  const auto estimate = [](const std::optional<Estimate>& e) { return e ? Json{{"value", e->value}, {"standard_error", e->error}} : Json(nullptr); };
+  const auto bound = [](const std::optional<double>& b) { return b ? Json(*b) : Json(nullptr); };
+  Json measures = Json::array();
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    const MeasureStatistics& s = all[k];
+    Json one{{"name", table.measure_names()[k]}, {"unit", table.measure_units()[k]}, {"values", s.values}, {"missing", s.missing}};
+    if (s.values > 0) {
+      one["least"] = s.least;
+      one["largest"] = s.largest;
+    }
+    one["mean"] = estimate(s.mean);
+    one["standard_deviation"] = estimate(s.deviation);
+    one["quantiles"] = Json::array();
+    for (const Quantile& q : s.quantiles)
+      one["quantiles"].push_back({{"probability", q.probability}, {"value", q.value}, {"from", bound(q.from)}, {"to", bound(q.to)}});
+    if (design.group() > 1) {
+      one["sobol_indices"] = Json::array();
+      for (std::size_t range = 0; range < s.total.size(); ++range)
+        one["sobol_indices"].push_back({{"of", design.paths()[range]}, {"first_order", estimate(s.first_order[range])}, {"total", estimate(s.total[range])}});
+    }
+    measures.push_back(std::move(one));
+  }
+  head["measures"] = std::move(measures);
+  return head;
+}
+
+std::string in_words(const std::vector<MeasureStatistics>& all, const Design& design, const SweepTable& table) {
+  std::string text;
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    const MeasureStatistics& s = all[k];
+    const std::string unit = table.measure_units()[k] == "1" ? "" : " " + table.measure_units()[k];
+    text += fmt::format("  {}: ", table.measure_names()[k]);
+    if (!s.mean) {
+      text += fmt::format("{} value{}, too few for statistics\n", s.values, s.values == 1 ? "" : "s");
+      continue;
+    }
+    text += fmt::format("mean {:.6g} +- {:.2g}{}, standard deviation {:.4g} +- {:.2g}{}", s.mean->value, s.mean->error, unit, s.deviation->value, s.deviation->error, unit);
+    for (const Quantile& q : s.quantiles)
+      if (q.probability == 0.5) text += fmt::format(", median {:.6g}{}", q.value, unit);
+    text += '\n';
+    for (std::size_t range = 0; range < s.total.size(); ++range)
+      text += fmt::format("    Sobol index of {}: first order {:.3f} +- {:.3f}, total {:.3f} +- {:.3f}\n", design.paths()[range], s.first_order[range].value,
+                          s.first_order[range].error, s.total[range].value, s.total[range].error);
+  }
+  return text;
+}
+
+}  // namespace rheonet::tool

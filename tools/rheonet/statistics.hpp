@@ -1,0 +1,95 @@
+#pragma once
+
+#include <algorithm>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tools/rheonet/design.hpp"
+#include "tools/rheonet/order_statistics.hpp"
+#include "tools/rheonet/sweep_table.hpp"
+
+namespace rheonet::tool {
+
+/// An estimate and its standard error.
+struct Estimate {
+  double value = 0, error = 0;
+};
+
+/// An empirical quantile, and a 95 % confidence interval that holds for every distribution; a bound is absent if the values are too
+/// few for it.
+struct Quantile {
+  double probability = 0, value = 0;
+  std::optional<double> from, to;
+};
+
+/// Of one measure over the runs of a sweep that have a value.
+struct MeasureStatistics {
+  long values = 0;   ///< how many independent runs have one; a group counts only if all of its runs do
+  long missing = 0;  ///< how many runs were done and have none
+  double least = 0, largest = 0;
+  std::optional<Estimate> mean, deviation;  ///< of at least 3 values
+  std::vector<Quantile> quantiles;
+  /// For each range that is drawn from; empty unless the design has groups.
+  std::vector<Estimate> first_order, total;
+};
+
+/// Sums over a block of points. Values are relative to the first value of all, so that a large mean costs no digits.
+struct BlockSums {
+  double points = 0, values = 0, of_values = 0, of_squares = 0;
+  std::vector<double> product, difference, square;  ///< for each range: see `first_order` and `total`
+
+  void add(const BlockSums& other, double sign) {
+    points += sign * other.points;
+    values += sign * other.values;
+    of_values += sign * other.of_values;
+    of_squares += sign * other.of_squares;
+    for (std::size_t k = 0; k < product.size(); ++k) {
+      product[k] += sign * other.product[k];
+      difference[k] += sign * other.difference[k];
+      square[k] += sign * other.square[k];
+    }
+  }
+  double variance() const { return std::max(0.0, (of_squares - of_values * of_values / values) / (values - 1)); }
+  /// Saltelli et al. (Computer Physics Communications 181, 2010), table 2, (b), with centred values.
+  double first_order(std::size_t range) const {
+    return (product[range] - of_values / values * difference[range]) / points / variance();
+  }
+  /// Jansen (Computer Physics Communications 117, 1999): table 2, (f), of the same paper.
+  double total(std::size_t range) const { return square[range] / (2 * points) / variance(); }
+};
+
+/// Collects the statistics of a sweep's measures from its rows, one after the other, in constant memory.
+class Statistics {
+ public:
+  Statistics(const Design& design, const SweepTable& table, std::vector<double> probabilities);
+  ~Statistics();
+
+  /// Takes rows of the table as CSV, those of the first run first: whole lines. Throws std::system_error if a disk is full.
+  void take(std::string_view rows);
+
+  /// Of each measure, in order.
+  std::vector<MeasureStatistics> results();
+  long failed() const { return failed_; }
+
+ private:
+  struct Accumulator;
+  void take_row(std::string_view row);
+  void take_group();
+
+  std::size_t first_column_, columns_;
+  long runs_, group_size_, taken_ = 0, failed_ = 0;
+  std::vector<double> probabilities_;
+  std::vector<std::vector<double>> group_;  ///< of each run of it the measures; NaN for none
+  std::vector<Accumulator> accumulators_;
+};
+
+/// The statistics as JSON; `head` has what precedes the measures.
+nlohmann::ordered_json as_json(nlohmann::ordered_json head, const std::vector<MeasureStatistics>& all, const Design& design, const SweepTable& table);
+
+/// In words, one measure a line.
+std::string in_words(const std::vector<MeasureStatistics>& all, const Design& design, const SweepTable& table);
+
+}  // namespace rheonet::tool

@@ -1,0 +1,118 @@
+#include "tools/rheonet/sweep_runs.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/netlist/characters.hpp"
+#include "core/network/component.hpp"
+#include "tools/rheonet/reading.hpp"
+
+namespace rheonet::tool {
+namespace {
+
+bool is_error(const Diagnostic& diagnostic) { return diagnostic.severity == Severity::error; }
+
+/// The first mistake of a scene, in a line.
+std::string first_mistake(const ReadResult& read) {
+  const auto& all = read.diagnostics;
+  const auto count = std::count_if(all.begin(), all.end(), is_error);
+  const Diagnostic& first = *std::find_if(all.begin(), all.end(), is_error);
+  std::string text = first.message;
+  if (!first.spot.on_command_line())
+    text = fmt::format("{}:{}:{}: {}", read.sources.files[static_cast<std::size_t>(first.spot.file)].path.string(),
+                       first.spot.line, first.spot.column, text);
+  return count > 1 ? fmt::format("{} (and {} more mistakes)", text, count - 1) : text;
+}
+
+}  // namespace
+
+tables::Layout Sweep::layout() const {
+  std::vector<bool> is_text;
+  for (std::size_t path = 0; path < design_.paths().size(); ++path) {
+    const std::vector<std::string> values = design_.listed_values(path);
+    is_text.push_back(!std::all_of(values.begin(), values.end(), is_number));
+  }
+  return table_.layout(title_, some_points(), is_text);
+}
+
+ReadResult Sweep::read(const std::vector<std::string>& values) {
+  ReadOptions options = options_of(arguments_);
+  options.claims = false;  // they are about the scene as it stands
+  options.cache = &cache_;
+  options.measures = table_.record_measures();
+  for (std::size_t k = 0; k < values.size(); ++k)
+    options.overrides.push_back(design_.paths()[k] + '=' + values[k]);
+  if (!values.empty()) options.origins = design_.origins();
+  return read_scene(arguments_.scene, declarations(), options);
+}
+
+bool Sweep::is_wrong_for_all(const ReadResult& refused) {
+  const std::size_t set = arguments_.overrides.size();
+  const ReadResult plain = read({});
+  for (const Diagnostic& mistake : refused.diagnostics) {
+    if (!is_error(mistake)) continue;
+    if (mistake.spot.on_command_line()) {
+      // Lines of the command line: those of `--set`, of what is varied, of measures.
+      const std::size_t line = static_cast<std::size_t>(mistake.spot.line) - 1;
+      if (line < set || line >= set + design_.paths().size()) return true;
+      const std::size_t path = count_characters(design_.origins()[line - set] + design_.paths()[line - set]);
+      if (static_cast<std::size_t>(mistake.spot.column) <= path) return true;
+      continue;
+    }
+    const auto same = [&](const Diagnostic& other) {
+      return is_error(other) && other.message == mistake.message && other.spot.file == mistake.spot.file &&
+             other.spot.line == mistake.spot.line && other.spot.column == mistake.spot.column;
+    };
+    if (std::any_of(plain.diagnostics.begin(), plain.diagnostics.end(), same)) return true;
+  }
+  return false;
+}
+
+bool Sweep::begin() {
+  first_ = read(design_.point(0));
+  if (!first_.scene && is_wrong_for_all(first_)) {
+    report_all(first_);
+    return false;
+  }
+  if (first_.scene) {
+    report_all(first_);
+    table_.set_scene(*first_.scene);
+    title_ = first_.scene->title;
+    return true;
+  }
+  for (long run = 1; run < design_.runs(); ++run)
+    if (const ReadResult other = read(design_.point(run)); other.scene) {
+      table_.set_scene(*other.scene);
+      title_ = other.scene->title;
+      return true;
+    }
+  if (table_.measures()) return true;  // each row says why it failed
+  report_all(first_);
+  return false;
+}
+
+std::optional<std::string> Sweep::make(long run, const std::atomic<bool>& stop) {
+  const std::vector<std::string> values = design_.point(run);
+  const std::string begin = SweepTable::key(run + 1, values);
+  const ReadResult read = this->read(values);
+  try {
+    if (!read.scene) throw SimulationError(first_mistake(read));
+    table_.check_records(read.scene->records);
+    std::string text;
+    RunSettings settings;
+    settings.interrupt = &stop;
+    settings.account = table_.needs_account();
+    if (!table_.measures())
+      settings.row = [&](double time, const std::vector<double>& values) { SweepTable::append(text, begin, time, values); };
+    const Summary summary = rheonet::run(*read.scene, settings);
+    simulating_ += summary.cpu_seconds;
+    return table_.measures() ? table_.row(begin, summary) : text;
+  } catch (const SimulationError& error) {
+    if (stop) return {};
+    ++failed_;
+    return table_.failed(begin, error.what());
+  }
+}
+
+}  // namespace rheonet::tool
