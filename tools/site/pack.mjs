@@ -1,7 +1,7 @@
 // node pack.mjs WEB BUILD NETLISTS OUTPUT: puts the site together in OUTPUT, of the bundled pages in WEB, what build.sh has made in BUILD,
 // and the netlists.
 import { readdirSync, readFileSync, existsSync, mkdirSync, writeFileSync } from 'node:fs';
-import { dirname, join } from 'node:path';
+import { dirname, join, relative } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { gzipSync } from 'node:zlib';
 
@@ -15,7 +15,7 @@ const read = (folder, name) => readFileSync(join(folder, name), 'utf8');
 const files = { '/report.html': read(web, 'report.html'), '/units.txt': read(build, 'units.txt') };
 for (const entry of readdirSync(netlists, { withFileTypes: true, recursive: true })) {
   const path = join(entry.parentPath ?? entry.path, entry.name);
-  if (entry.isFile() && /\.(toml|csv)$|^README\.md$/.test(entry.name)) files[`/netlists/${path.slice(netlists.length).replace(/^\//, '')}`] = readFileSync(path, 'utf8');
+  if (entry.isFile() && /\.(toml|csv)$|^README\.md$/.test(entry.name)) files[`/netlists/${relative(netlists, path)}`] = readFileSync(path, 'utf8');
 }
 
 // What the module holds besides rheonet.

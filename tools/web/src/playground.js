@@ -18,6 +18,7 @@ import { SceneData } from './scene-data.js';
 import { lessonOf } from './sections.js';
 import { Sliders } from './sliders.js';
 import { followSystem, rememberTheme, switchTheme } from './theme.js';
+import { runTime } from './units.js';
 
 const typing = 250; // ms without a key after which what was typed is run
 
@@ -170,7 +171,7 @@ class Playground {
         this.notice = null;
         return;
       }
-      this.say(`${data.done.statistics.steps} steps, ${data.done.statistics.cpu_time} of CPU time; drawn ${Math.round(took)} ms after the change`);
+      this.say(`${data.done.statistics.steps} steps, ${runTime(data.done.statistics)}; drawn ${Math.round(took)} ms after the change`);
     });
   }
 
