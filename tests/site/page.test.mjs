@@ -34,8 +34,8 @@ async function open(address, { cut = false, ...options } = {}) {
 
 async function exported(page, label) {
   const download = page.waitForEvent('download');
-  await page.getByRole('button', { name: /Export/ }).click();
-  await page.getByRole('button', { name: label }).click();
+  await page.getByRole('button', { name: 'Export' }).click();
+  await page.getByRole('menuitem', { name: label }).click();
   return readFileSync(await (await download).path(), 'utf8');
 }
 
@@ -76,7 +76,7 @@ for (const [what, address, cut] of [['a static host', () => hosted.address, fals
     await page.getByRole('button', { name: /Pause/ }).click();
 
     assert.match(await exported(page, 'Rows (CSV)'), /^time,grip\.position,mid\.position,spring\.force\n0,0,0,0\n/);
-    assert.match(await exported(page, 'Plots (SVG)'), /^<svg.*<\/svg>\s*$/s);
+    assert.match(await exported(page, 'Plots (SVG)'), /<svg .*B spring\.force.*<\/svg>\s*$/s);
     const report = await exported(page, 'Report (HTML)');
     assert.match(report, /Bingham: what yields, and when/);
 
@@ -90,6 +90,15 @@ for (const [what, address, cut] of [['a static host', () => hosted.address, fals
     await close();
   });
 }
+
+test('embedded: the scene of a link, its schematic, sliders and plots, and a way to all of it', async () => {
+  const { page, close } = await open(`${hosted.address}?embed#file=teaching/bingham.toml`, { viewport: { width: 700, height: 600 } });
+  for (const part of ['.schematic-box', '.sliders-box', '.plots-box']) assert.ok(await page.locator(part).isVisible(), part);
+  for (const part of ['.editor-box', '.actions', '.more-box']) assert.ok(!(await page.locator(part).isVisible()), part);
+  assert.equal(await page.locator('dialog[open]').count(), 0);
+  assert.equal(await page.getByRole('link', { name: 'Open in the playground' }).getAttribute('href'), `${hosted.address}#file=teaching/bingham.toml`);
+  await close();
+});
 
 test('from disk on a phone', async () => {
   const { page, close } = await open(`${oneFile}#file=teaching/stick-slip.toml`, { cut: true, viewport: { width: 390, height: 844 }, isMobile: true, hasTouch: true });
