@@ -1,5 +1,7 @@
 # The playground as static files, with rheonet as WebAssembly, in build/site. Without emscripten everything else builds.
-option(RHEONET_SITE "Build the site: the playground that needs no server; needs emscripten" ON)
+# The module is optimised whatever the build of the programs: by default only the optimised one makes it.
+string(COMPARE EQUAL "${CMAKE_BUILD_TYPE}" Release is_optimised)
+option(RHEONET_SITE "Build the site: the playground that needs no server; needs emscripten" ${is_optimised})
 set(RHEONET_SITE_DIR ${PROJECT_SOURCE_DIR}/build/site CACHE PATH "Where the site is put")
 find_program(EMXX em++)
 find_path(FAST_FLOAT_INCLUDE fast_float/fast_float.h)
