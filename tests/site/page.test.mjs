@@ -100,6 +100,17 @@ test('embedded: the scene of a link, its schematic, sliders and plots, and a way
   await close();
 });
 
+test('the drawing of a scene of more than 60 elements moves too', async () => {
+  const { page, close } = await open(`${hosted.address}#file=teaching/couette-lag.toml`);
+  const places = () => page.evaluate(() => [...document.querySelectorAll('.drawing [data-element]')].map(({ style }) => style.transform));
+  await page.locator('.animation input').fill('900');
+  const late = await places();
+  await page.locator('.animation input').fill('300');
+  const early = await places();
+  assert.ok(late.filter((place, k) => place !== early[k]).length > 10);
+  await close();
+});
+
 test('from disk on a phone', async () => {
   const { page, close } = await open(`${oneFile}#file=teaching/stick-slip.toml`, { cut: true, viewport: { width: 390, height: 844 }, isMobile: true, hasTouch: true });
   assert.equal(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), true);
