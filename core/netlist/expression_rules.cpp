@@ -77,7 +77,7 @@ Number ExpressionRules::look_up(const ExpressionCode::Variable& variable, const 
       fail(at, "`log` could mean two functions", "`ln` is the natural logarithm, `log10` the decimal one");
     fail(at, fmt::format("unknown function `{}`", name), hint_for_call(name));
   }
-  const auto unknown = [&](std::string hint) { fail(at, fmt::format("unknown name `{}`", name), std::move(hint)); };
+  const auto unknown = [&, &name = name, &at = at](std::string hint) { fail(at, fmt::format("unknown name `{}`", name), std::move(hint)); };
   if (is_pi(name)) unknown("write `pi`");
   if (const ExpressionFunction* function = find_function(name))
     unknown(fmt::format("`{0}` is a function: write `{0}({1})`", name, function->arguments));

@@ -15,7 +15,7 @@ namespace {
 
 using Values = Eigen::Map<Eigen::ArrayXd>;
 
-Values of(N_Vector v) { return {NV_DATA_S(v), NV_LENGTH_S(v)}; }
+Values of(N_Vector v) { return {NV_DATA_S(v), static_cast<Eigen::Index>(NV_LENGTH_S(v))}; }
 
 // In each of these operations the result may be one of the operands.
 

@@ -190,10 +190,12 @@ bool tell_run(const ReadResult& read, const RunWanted& wanted, const Tell& tell)
 }
 
 std::size_t record_what_pages_show(Scene& scene) {
-  constexpr std::size_t few = 60;
+  // Elements of a scene of which all is recorded, and of one of which the positions are, which move its drawing.
+  constexpr std::size_t few = 60, many = 300;
   const std::size_t before = scene.records.size();
-  if (scene.elements.size() > few) return before;
+  if (scene.elements.size() > many) return before;
   for (const Record& record : every_record(scene)) {
+    if (scene.elements.size() > few && !record.path.ends_with(".position")) continue;
     const auto same = [&](const Record& other) { return other.path == record.path; };
     if (std::none_of(scene.records.begin(), scene.records.begin() + static_cast<std::ptrdiff_t>(before), same))
       scene.records.push_back(record);

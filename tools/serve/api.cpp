@@ -1,11 +1,10 @@
 #include "tools/serve/api.hpp"
 
-#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
 
 #include "tools/report/messages.hpp"
-#include "tools/serve/netlist_name.hpp"
+#include "tools/serve/requests.hpp"
 #include "tools/web/assets.hpp"
 
 namespace rheonet::serve {
@@ -15,7 +14,6 @@ using nlohmann::json;
 using namespace std::chrono_literals;
 
 constexpr std::size_t longest_body = 1u << 20;  // of a body
-constexpr std::size_t most_compared = 4, most_curves = 200, longest_name = 1000;
 
 void refuse(httplib::Response& response, int status, const std::string& why) {
   response.status = status;
@@ -49,49 +47,6 @@ std::optional<json> read(httplib::Response& response, const httplib::ContentRead
   json value = json::parse(text, nullptr, false);
   if (!value.is_object()) return refuse(response, 400, "the request is no JSON object in UTF-8"), std::nullopt;
   return value;
-}
-
-/// A string of a request, "" if there is none; a long one is no name.
-std::string word(const json& value, const char* key) {
-  const auto found = value.find(key);
-  if (found == value.end() || !found->is_string()) return "";
-  const auto& text = found->get_ref<const std::string&>();
-  return text.size() <= longest_name ? text : "";
-}
-
-/// A netlist as a worker gets it; absent if it is not one.
-std::optional<json> scene_of(const json& value) {
-  if (!value.is_object() || !value.contains("text") || !value["text"].is_string()) return {};
-  const std::string file = word(value, "file");
-  const std::string folder = fault_of_name(file).empty() ? std::filesystem::path(file).parent_path().string() : "";
-  return json{{"text", value["text"]}, {"file", file.empty() ? "scene.toml" : file}, {"folder", folder}};
-}
-
-/// The task that a request asks for, with nothing in it but what is known; absent if it asks for none.
-std::optional<json> task_of(const json& request) {
-  const std::string kind = word(request, "task");
-  if (kind == "show" || kind == "explain" || kind == "csv") {
-    std::optional<json> task = scene_of(request);
-    if (!task) return {};
-    (*task)["task"] = kind;
-    (*task)["draw"] = request.value("draw", json()) == true;
-    return task;
-  }
-  if ((kind != "report" && kind != "figure") || !request.contains("scenes") || !request["scenes"].is_array()) return {};
-  json task{{"task", kind}, {"scenes", json::array()}, {"curves", json::array()}};
-  if (request["scenes"].empty() || request["scenes"].size() > most_compared) return {};
-  for (const json& scene : request["scenes"]) {
-    std::optional<json> one = scene_of(scene);
-    if (!one) return {};
-    task["scenes"].push_back(std::move(*one));
-  }
-  if (kind == "report") return task;
-  if (!request.contains("curves") || !request["curves"].is_array() || request["curves"].size() > most_curves) return {};
-  for (const json& curve : request["curves"]) {
-    if (!curve.is_array() || curve.size() != 2 || !curve[0].is_string() || !curve[1].is_string()) return {};
-    task["curves"].push_back(curve);
-  }
-  return task;
 }
 
 int status_of(Folder::Written::Outcome outcome) {
@@ -153,19 +108,9 @@ void Api::attach(Server& server, const std::string& host) {
 }
 
 void Api::list(Response& response) const {
-  json scenes = json::array();
-  const Folder::Listing listing = folder_.scenes();
-  for (const Folder::Entry& each : listing.scenes) {
-    scenes.push_back({{"file", each.file}, {"title", each.title}, {"about", each.about}});
-    if (each.place) scenes.back()["place"] = *each.place;
-  }
-  response.set_content(report::to_line({{"name", folder_.path().filename().string()},
-                                        {"may_be_written", folder_.may_be_written()},
-                                        {"seconds", pool_.limits().seconds},
-                                        {"left_out", listing.left_out},
-                                        {"all_visited", listing.all_visited},
-                                        {"scenes", scenes}}),
-                       "application/json");
+  json listing = listing_of(folder_);
+  listing["seconds"] = pool_.limits().seconds;
+  response.set_content(report::to_line(listing), "application/json");
 }
 
 void Api::open(const Request& request, Response& response) const {

@@ -1,13 +1,6 @@
-#include <poll.h>
-#include <sys/resource.h>
-#include <unistd.h>
+#include "tools/serve/tasks.hpp"
 
-#include <cstdio>
-#include <fstream>
-#include <iostream>
-#include <new>
 #include <nlohmann/json.hpp>
-#include <thread>
 
 #include "core/network/component.hpp"
 #include "core/network/error.hpp"
@@ -16,26 +9,17 @@
 #include "tools/plot/compose.hpp"
 #include "tools/plot/mistake.hpp"
 #include "tools/report/document.hpp"
-#include "tools/report/messages.hpp"
 #include "tools/rheonet/both_sides.hpp"
-#include "tools/rheonet/library.hpp"
 #include "tools/rheonet/plot_source.hpp"
 #include "tools/rheonet/reading.hpp"
-#include "tools/serve/below.hpp"
-#include "tools/serve/worker.hpp"
 
 namespace rheonet::serve {
 namespace {
 
 using nlohmann::json;
+using report::Tell;
 
 constexpr std::size_t most_elements = 100'000;
-
-void tell(const std::string& message) {
-  std::fwrite(message.data(), 1, message.size(), stdout);
-  std::fputc('\n', stdout);
-  std::fflush(stdout);
-}
 
 /// A netlist that was sent. Its folder is relative to the served folder.
 struct Sent {
@@ -46,20 +30,12 @@ Sent sent(const json& item) {
   return {item.at("text").get<std::string>(), item.at("file").get<std::string>(), item.at("folder").get<std::string>()};
 }
 
-/// The sources of included files and tables: the served folder, which the server has opened, and the library.
-const std::vector<const FileOffer*>& offers() {
-  static const std::vector<const FileOffer*> all = [] {
-    std::vector<const FileOffer*> made{new OfferedFolder(Descriptor(folder_descriptor))};
-    for (const std::filesystem::path& library : tool::library_folders()) made.push_back(new OfferedFolder(library));
-    return made;  // for as long as the process lives
-  }();
-  return all;
-}
+using Offers = std::vector<const FileOffer*>;
 
-ReadResult read(const Sent& item) {
+ReadResult read(const Sent& item, const Offers& offers) {
   ReadOptions options;
   options.plotted = true;
-  ReadResult result = tool::read_text(item.text, item.file, item.folder, options, offers());
+  ReadResult result = tool::read_text(item.text, item.file, item.folder, options, offers);
   if (result.scene && result.scene->elements.size() > most_elements) {
     result.diagnostics.push_back({.severity = Severity::error,
                                   .spot = {0, 1, 1},
@@ -70,14 +46,14 @@ ReadResult read(const Sent& item) {
   return result;
 }
 
-void tell_file(const std::string& type, const std::string& text) {
+void tell_file(const Tell& tell, const std::string& type, const std::string& text) {
   tell(report::to_line({{"kind", "file"}, {"type", type}, {"text", text}}));
 }
 
 /// Everything that a page shows of a scene.
-void show(const json& task) {
+void show(const json& task, const Offers& offers, const Tell& tell) {
   const Sent item = sent(task);
-  ReadResult scene = read(item);
+  ReadResult scene = read(item, offers);
   tell(report::mistakes_message(scene));
   if (!scene.scene) return;
   const std::size_t own = report::record_what_pages_show(*scene.scene);
@@ -86,15 +62,15 @@ void show(const json& task) {
 }
 
 /// What is simulated, and why. Not with what a page shows at once: the run is begun for it, which takes a moment.
-void explain_to_page(const json& task) {
-  const ReadResult scene = read(sent(task));
+void explain_to_page(const json& task, const Offers& offers, const Tell& tell) {
+  const ReadResult scene = read(sent(task), offers);
   tell(report::mistakes_message(scene));
   if (scene.scene) tell(report::explanation_message(*scene.scene));
 }
 
 /// All rows, every digit.
-void csv(const json& task) {
-  const ReadResult scene = read(sent(task));
+void csv(const json& task, const Offers& offers, const Tell& tell) {
+  const ReadResult scene = read(sent(task), offers);
   tell(report::mistakes_message(scene));
   if (!scene.scene) return;
   MemoryFile rows;
@@ -105,17 +81,17 @@ void csv(const json& task) {
     failure = error.what();
   }
   if (failure.empty())
-    tell_file("text/csv", std::string(rows.text()));
+    tell_file(tell, "text/csv", std::string(rows.text()));
   else
     tell(report::to_line({{"kind", "failed"}, {"message", failure}}));
 }
 
-void report_of(const json& task) {
+void report_of(const json& task, const Offers& offers, const Tell& tell) {
   std::vector<std::vector<std::string>> scenes;
   std::string title;
   for (const json& each : task.at("scenes")) {
     const Sent item = sent(each);
-    ReadResult scene = read(item);
+    ReadResult scene = read(item, offers);
     if (!scene.scene) return tell(report::mistakes_message(scene));
     if (title.empty()) title = scene.scene->title.empty() ? item.file : scene.scene->title;
     std::vector<std::string> messages{report::mistakes_message(scene)};
@@ -125,17 +101,17 @@ void report_of(const json& task) {
     report::tell_run(scene, {}, [&](const std::string& message) { messages.push_back(message); });
     scenes.push_back(std::move(messages));
   }
-  tell_file("text/html", report::document(title, scenes));
+  tell_file(tell, "text/html", report::document(title, scenes));
 }
 
 /// Curves as an SVG: of each scene the records `y` over `x`.
-void figure(const json& task) {
+void figure(const json& task, const Offers& offers, const Tell& tell) {
   std::vector<plot::Measured> curves;
   plot::Look look;
   const bool several = task.at("scenes").size() > 1;
   char letter = 'A';
   for (const json& each : task.at("scenes")) {
-    ReadResult scene = read(sent(each));
+    ReadResult scene = read(sent(each), offers);
     if (!scene.scene) return tell(report::mistakes_message(scene));
     if (look.title.empty()) look.title = scene.scene->title;
     report::record_what_pages_show(*scene.scene);
@@ -164,62 +140,25 @@ void figure(const json& task) {
   }
   if (curves.empty()) throw plot::Mistake("there is nothing to draw", "choose what is to be shown");
   std::vector<std::string> notes;
-  tell_file("image/svg+xml", plot::svg(plot::compose(std::move(curves), look, notes)));
-}
-
-void carry_out(const json& task) {
-  const std::string kind = task.at("task").get<std::string>();
-  if (kind == "show") return show(task);
-  if (kind == "explain") return explain_to_page(task);
-  if (kind == "csv") return csv(task);
-  if (kind == "report") return report_of(task);
-  if (kind == "figure") return figure(task);
-}
-
-void limit(int resource, rlim_t most) {
-  const rlimit both{most, most};
-  ::setrlimit(static_cast<__rlimit_resource>(resource), &both);
-}
-
-/// Of this process so far.
-rlim_t address_space() {
-  std::ifstream pages("/proc/self/statm");
-  rlim_t count = 0;
-  pages >> count;
-  return count * static_cast<rlim_t>(::sysconf(_SC_PAGESIZE));
-}
-
-/// Whoever gave the task may have gone while it is being done.
-void end_with_the_server() {
-  for (;;) {
-    pollfd input{STDIN_FILENO, 0, 0};
-    if (::poll(&input, 1, -1) > 0 && (input.revents & (POLLHUP | POLLERR)) != 0) ::_exit(0);
-  }
+  tell_file(tell, "image/svg+xml", plot::svg(plot::compose(std::move(curves), look, notes)));
 }
 
 }  // namespace
 
-int work(const Limits& limits) {
-  std::thread(end_with_the_server).detach();
-  limit(RLIMIT_CORE, 0);
-  limit(RLIMIT_FSIZE, 0);
-#ifndef __SANITIZE_ADDRESS__  // which takes all addresses there are
-  limit(RLIMIT_AS, address_space() + static_cast<rlim_t>(limits.megabytes) * (1u << 20));
-#endif
-  for (std::string line; std::getline(std::cin, line);) {
-    const auto failed = [](const std::string& why) { tell(report::to_line({{"kind", "failed"}, {"message", why}})); };
-    try {
-      carry_out(json::parse(line));
-    } catch (const std::bad_alloc&) {
-      return out_of_memory;  // the server says so
-    } catch (const plot::Mistake& mistake) {
-      failed(mistake.what());
-    } catch (const std::exception& error) {
-      failed(error.what());
-    }
-    tell("");
+void carry_out(const json& task, const Offers& offers, const Tell& tell) {
+  const auto failed = [&](const char* why) { tell(report::to_line({{"kind", "failed"}, {"message", why}})); };
+  try {
+    const std::string kind = task.at("task").get<std::string>();
+    if (kind == "show") return show(task, offers, tell);
+    if (kind == "explain") return explain_to_page(task, offers, tell);
+    if (kind == "csv") return csv(task, offers, tell);
+    if (kind == "report") return report_of(task, offers, tell);
+    if (kind == "figure") return figure(task, offers, tell);
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& error) {
+    failed(error.what());
   }
-  return 0;
 }
 
 }  // namespace rheonet::serve

@@ -79,7 +79,8 @@ const embedded = fontsOf([...fontFiles].sort(), join(source, 'licences/OFL-1.1.t
 const script = credits(report.packages, 'at the end of this page') + report.script.replaceAll('</script', '<\\/script');
 write('report.html', filled(page('report.html'), [['/* style */', report.style], ['<!-- licences -->', escaped(notice(report.packages, embedded))], ['/* script */', script]]));
 
-write('playground.html', page('playground.html'));
+// tools/site makes another page of the same source, whose engine is in the page.
+write('playground.html', filled(page('playground.html'), [['<!-- engine -->\n', '']]));
 write('playground.css', playground.style);
 write('playground.js', credits(playground.packages, '/licences.txt') + playground.script);
 write('token.html', page('token.html'));

@@ -1,63 +1,18 @@
-// What the playground asks of the server that it comes from.
+// What the playground asks for: of the server that the page comes from, or of rheonet in the page itself.
+import * as engine from './engine.js';
+import * as server from './server.js';
 
-const asJson = { 'Content-Type': 'application/json' };
+const transport = document.querySelector('meta[name="rheonet-engine"]') ? engine : server;
 
-// The token of the address that the server has printed. It leaves the address, which people copy, for the storage of this origin,
-// where the page finds it when it is loaded again; pages of other ports or hosts cannot read it there.
-function takeToken() {
-  const key = 'token';
-  const given = new URLSearchParams(location.search).get(key);
-  try {
-    if (given) localStorage.setItem(key, given);
-    if (given) history.replaceState(history.state, '', location.pathname + location.hash);
-    return given ?? localStorage.getItem(key) ?? '';
-  } catch {
-    return given ?? ''; // without storage it stays in the address
-  }
-}
-const token = takeToken();
+// Whether a run needs no server.
+export const isAlone = transport === engine;
 
-async function ask(path, options = {}) {
-  const response = await fetch(path, { ...options, headers: { ...options.headers, Authorization: `Bearer ${token}` } }).catch((error) => {
-    if (error.name === 'AbortError') throw error;
-    throw new Error('the server does not answer: is `rheonet serve` still running?');
-  });
-  if (response.ok) return response;
-  const { error, version } = await response.json().catch(() => ({}));
-  throw Object.assign(new Error(error ?? `the server answers ${response.status}`), { there: response.status === 409 ? version : '' });
-}
-
-const post = (path, value, signal) => ask(path, { method: 'POST', headers: asJson, body: JSON.stringify(value), signal });
-
-export async function folder() {
-  return (await ask('/api/folder')).json();
-}
-
-// A netlist of the folder: its text, and what tells that from another text that the file may get.
-export async function open(file) {
-  const response = await ask(`/api/scene?file=${encodeURIComponent(file)}`);
-  return { text: await response.text(), version: response.headers.get('ETag').replaceAll('"', '') };
-}
-
-// Writes one, over another only if that has this version; its new version. An error says in `there` which version is in
-// the way.
-export async function save(file, text, version) {
-  return (await (await post('/api/save', { file, text, version })).json()).version;
-}
-
-// Gives a task; onmessage gets each message as it comes.
-export async function task(request, onmessage, signal) {
-  const response = await post('/api/task', request, signal);
-  const reader = response.body.pipeThrough(new TextDecoderStream()).getReader();
-  let rest = '';
-  for (;;) {
-    const { value, done } = await reader.read();
-    if (done) return;
-    const lines = (rest + value).split('\n');
-    rest = lines.pop();
-    lines.forEach((line) => onmessage(JSON.parse(line)));
-  }
-}
+// folder(): the netlists, for the gallery.
+// open(file): a netlist: its text, and what tells that from another text that the file may get.
+// save(file, text, version): writes one, over another only if that has this version; its new version. An error says in `there`
+//   which version is in the way.
+// task(request, onmessage, signal): gives a task; onmessage gets each message as it comes.
+export const { folder, open, save, task } = transport;
 
 // The one message of a kind that a task is for; throws what is wrong.
 async function answer(request, kind) {

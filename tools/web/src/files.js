@@ -21,7 +21,7 @@ export class Files {
   async begin() {
     await this.look();
     if ((await this.openAddress(history.state)) || this.desk.notice) return;
-    if (this.folder.scenes.length) this.gallery.open();
+    if (this.folder.scenes.length && !document.body.classList.contains('embedded')) this.gallery.open();
   }
 
   async look() {
@@ -121,7 +121,7 @@ export class Files {
     this.nameInAddress(file);
     this.keep();
     desk.showTitle(desk.current.data.scene?.title);
-    desk.say(`Saved as ${file}.`);
+    desk.answer(`Saved as ${file}.`);
     await this.look();
   }
 
@@ -138,9 +138,9 @@ export class Files {
     desk.say(`Making ${name} …`);
     try {
       download(await make(), name);
-      desk.say(`Made ${name}.`);
+      desk.answer(`Made ${name}.`);
     } catch (error) {
-      desk.say(`Not made: ${error.message}`, true);
+      desk.answer(`Not made: ${error.message}`, true);
     }
   }
 
@@ -150,9 +150,9 @@ export class Files {
     history.replaceState(history.state, '', `#scene=${await encode({ scenes, plots: plots.state })}`);
     try {
       await navigator.clipboard.writeText(location.href);
-      this.desk.say('The link is copied: it carries the scene.');
+      this.desk.answer('The link is copied: it carries the scene.');
     } catch {
-      this.desk.say('The address of this page carries the scene.');
+      this.desk.answer('The address of this page carries the scene.');
     }
   }
 }

@@ -8,6 +8,9 @@ const byName = (a, b) => words.compare(a.title || a.file, b.title || b.file) || 
 // In the order in which the page of their folder tells of them; what it leaves out comes last.
 const inOrder = (a, b) => (a.place ?? Infinity) - (b.place ?? Infinity) || byName(a, b);
 
+// Scenes for beginners come first, scenes that test the solver last.
+const rank = (folder) => (folder.startsWith('teaching') ? 0 : folder.startsWith('hard') ? 2 : 1);
+
 // The note below the gallery if the folder has more netlists than it lists.
 function leftOutOf(shown, leftOut, allVisited) {
   const others = allVisited ? `${leftOut} other .toml files of the folder are` : `${leftOut} or more other .toml files of the folder are`;
@@ -22,7 +25,7 @@ export class Gallery {
     this.dialog = element('dialog', { class: 'gallery', 'aria-labelledby': 'gallery-title' },
       element('div', { class: 'dialog-head' }, element('h2', { id: 'gallery-title' }, 'Gallery'), this.find,
         element('button', { type: 'button', onclick: () => this.dialog.close(), 'aria-label': 'Close' }, '✕')),
-      this.list);
+      (this.nothing = element('p', { class: 'note', role: 'status' })), this.list);
     this.find.addEventListener('input', () => this.filter());
     document.body.append(this.dialog);
     this.drawn = new IntersectionObserver((items) => items.forEach((item) => item.isIntersecting && this.draw(item.target)), { rootMargin: '100px' });
@@ -37,8 +40,7 @@ export class Gallery {
       if (!groups.has(folder)) groups.set(folder, []);
       groups.get(folder).push(scene);
     }
-    // What is for beginners comes first.
-    const order = [...groups.keys()].sort((a, b) => Number(b.startsWith('teaching')) - Number(a.startsWith('teaching')) || words.compare(a, b));
+    const order = [...groups.keys()].sort((a, b) => rank(a) - rank(b) || words.compare(a, b));
     this.list.replaceChildren(...order.map((folder) =>
       element('section', { class: 'card-group' }, folder ? element('h3', {}, folder) : null,
         element('div', { class: 'card-grid' }, groups.get(folder).sort(inOrder).map((scene) => this.card(scene))))));
@@ -89,6 +91,8 @@ export class Gallery {
       card.hidden = !words.every((word) => text.includes(word));
     }
     for (const group of this.list.querySelectorAll('.card-group')) group.hidden = !group.querySelector('.card:not([hidden])');
+    const found = this.list.querySelector('.card:not([hidden])') || !words.length;
+    this.nothing.textContent = found ? '' : `No netlist has the words “${this.find.value.trim()}” in its name, title or question.`;
   }
 
   open() {

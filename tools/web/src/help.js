@@ -1,6 +1,12 @@
 // What can be done, and by which keys.
 import { element } from './dom.js';
 
+// The page that is a single file has the licences in it.
+function addressOfLicences() {
+  const text = document.getElementById('licences')?.textContent;
+  return text ? URL.createObjectURL(new Blob([text], { type: 'text/plain;charset=utf-8' })) : 'licences.txt';
+}
+
 export function helpDialog() {
   const keys = [['Ctrl S', 'save the netlist'], ['Space', 'animate, or pause (outside the editor)'], ['← →', 'turn the slider that has the focus; move in a plot'],
     ['+ − 0', 'zoom in a plot, and show all'], ['Ctrl Z', 'undo, in the editor'], ['Esc, Tab', 'leave the editor'], ['G', 'the gallery (outside the editor)']];
@@ -8,6 +14,6 @@ export function helpDialog() {
     element('div', { class: 'dialog-head' }, element('h2', { id: 'help-title' }, 'Help'), element('button', { type: 'button', onclick: () => dialog.close(), 'aria-label': 'Close' }, '✕')),
     element('p', {}, 'Choose a netlist in the gallery. Turn a slider, or change the text: schematic and plots follow. Compare keeps the netlist as A and lets you change B. A link carries the whole scene.'),
     element('dl', {}, keys.map(([key, does]) => [element('dt', {}, element('kbd', {}, key)), element('dd', {}, does)])),
-    element('p', {}, element('a', { href: '/licences.txt', target: '_blank' }, 'Licences'), ' of the software and the fonts in this page'));
+    element('p', {}, element('a', { href: addressOfLicences(), target: '_blank' }, 'Licences'), ' of the software and the fonts in this page'));
   return dialog;
 }

@@ -18,7 +18,9 @@ import { SceneData } from './scene-data.js';
 import { lessonOf } from './sections.js';
 import { Sliders } from './sliders.js';
 import { followSystem, rememberTheme, switchTheme } from './theme.js';
+import { runTime } from './units.js';
 
+const isEmbedded = new URLSearchParams(location.search).has('embed');
 const typing = 250; // ms without a key after which what was typed is run
 
 class Playground {
@@ -72,15 +74,29 @@ class Playground {
     const box = (name, heading, ...content) => element('section', { class: `box ${name}-box`, 'aria-label': heading }, element('h2', { class: 'box-title' }, heading), ...content);
     host.append(bar, element('main', { class: 'desk' },
       box('editor', 'Netlist', this.choice, part('editor'), part('mistakes')),
+      // Before the stage: that is the order of the Tab key.
+      box('sliders', 'Sliders', part('sliders')),
       element('div', { class: 'stage' },
         (this.lesson = box('lesson', 'Question')),
         box('schematic', 'Schematic', part('drawing'), part('animation')),
         box('plots', 'Plots', this.status, part('plots')),
-        box('more', 'More', part('sections'))),
-      box('sliders', 'Sliders', part('sliders'))));
+        box('more', 'More', part('sections')))));
     this.lesson.hidden = true;
+    this.toast = element('p', { class: 'toast', hidden: true, 'aria-hidden': 'true' });
+    host.append(this.toast);
+    if (isEmbedded) this.embed(bar);
     this.help = helpDialog();
     document.body.append(this.help);
+  }
+
+  // Part of a page of somebody else: of the tools only a way to the whole playground remains.
+  embed(bar) {
+    document.body.classList.add('embedded');
+    const link = element('a', { target: '_blank' }, 'Open in the playground');
+    const follow = () => (link.href = `${location.origin === 'null' ? 'file://' : location.origin}${location.pathname}${location.hash}`);
+    for (const event of ['hashchange', 'popstate']) addEventListener(event, follow);
+    follow();
+    bar.append(link);
   }
 
   // Puts other scenes, one or two to compare, in the place of those that are there.
@@ -170,8 +186,17 @@ class Playground {
         this.notice = null;
         return;
       }
-      this.say(`${data.done.statistics.steps} steps, ${data.done.statistics.cpu_time} of CPU time; drawn ${Math.round(took)} ms after the change`);
+      this.say(`${data.done.statistics.steps} steps, ${runTime(data.done.statistics)}; drawn ${Math.round(took)} ms after the change`);
     });
+  }
+
+  // The outcome of an action, wherever the page has been scrolled to.
+  answer(text, bad = false) {
+    this.say(text, bad);
+    this.toast.textContent = text;
+    this.toast.hidden = false;
+    clearTimeout(this.toasted);
+    this.toasted = setTimeout(() => (this.toast.hidden = true), 4000);
   }
 
   // Stays until the next change.

@@ -184,8 +184,9 @@ export class PlotPanel {
         });
       });
     });
-    // One record of several runs is told apart by colour too.
-    for (const { names, curves } of panels.values()) if (names.length === 1) curves.forEach((curve) => (curve.style = curve.dash));
+    // In all panels alike the colour tells records apart, or, where each panel has one record, the runs; the dashes tell runs apart.
+    const isOneEach = [...panels.values()].every(({ names }) => names.length === 1);
+    if (isOneEach) for (const { curves } of panels.values()) curves.forEach((curve) => (curve.style = curve.dash));
     return [...panels.values()];
   }
 

@@ -6,7 +6,7 @@ import { PlotPanel } from './plot-panel.js';
 import { SceneData } from './scene-data.js';
 import { accuracyOf, claimsOf, elementsOf, energyOf, equationsOf, eventsOf, explanationOf, lessonOf, notesOf, sourcesOf, statisticsOf } from './sections.js';
 import { followSystem } from './theme.js';
-import { number } from './units.js';
+import { number, runTime } from './units.js';
 import { differencesOf } from './differences.js';
 
 followSystem();
@@ -29,7 +29,7 @@ function plots(runs) {
 function summary({ scene, done }) {
   const { domain, start, stop, element_count: elements, node_count: nodes, accuracy } = scene;
   const count = (n, one) => `${n} ${one}${n === 1 ? '' : 's'}`;
-  return `${domain}, ${count(elements, 'element')}, ${count(nodes, 'node')}; ${start} s to ${stop} s to an accuracy of ${number(accuracy)}${done ? `, ${done.statistics.cpu_time} of CPU time` : ''}`;
+  return `${domain}, ${count(elements, 'element')}, ${count(nodes, 'node')}; ${start} s to ${stop} s to an accuracy of ${number(accuracy)}${done ? `, ${runTime(done.statistics)}` : ''}`;
 }
 
 function sceneOf(data, k) {

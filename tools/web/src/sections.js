@@ -4,7 +4,7 @@ import 'katex/dist/katex.min.css';
 import { element, table } from './dom.js';
 import { LoopChart } from './loop-chart.js';
 import { TimeChart, TimeGroup } from './time-chart.js';
-import { grouped, number, spaced, timeShown, withUnit } from './units.js';
+import { grouped, number, runTime, spaced, timeShown, withUnit } from './units.js';
 
 // A text with what stands between backticks set as code.
 export const inWords = (text) => text.split(/(`[^`]*`)/).map((part, k) => (k % 2 ? element('code', {}, part.slice(1, -1)) : part));
@@ -131,7 +131,7 @@ export function statisticsOf(data) {
     ['evaluations', `${grouped(s.residuals)} of the residual, ${grouped(s.jacobians)} of the Jacobian`],
     ['events', `${grouped(s.events)}${switched ? `: ${switched}` : ''}`],
     ['starts of the integrator', grouped(s.starts)],
-    ['CPU time', s.cpu_time],
+    ['Time', runTime(s)],
     ['energy supplied', withUnit(s.supplied, 'J')],
     ['energy stored', `${withUnit(s.stored, 'J')} more than at the start`],
     ['energy dissipated', withUnit(s.dissipated, 'J')],

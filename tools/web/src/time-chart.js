@@ -81,6 +81,8 @@ export class TimeChart extends Chart {
         legend: { live: true, markers: { width: 3, fill: () => 'transparent', dash: (_, k) => (k > 0 ? borders[dashOf(curves[k - 1], k - 1)] : 'solid') } },
         hooks: {
           drawClear: [(plot) => this.drawEvents(plot)],
+          // The legend has a time only while somebody points at one.
+          setCursor: [(plot) => host.classList.toggle('pointed', typeof plot.cursor.idx === 'number')],
           setScale: [(plot, key) => key === 'x' && this.follow(plot)],
         },
       },

@@ -56,3 +56,6 @@ export function largestOf(arrays) {
   for (const array of arrays) for (const value of array) if (Math.abs(value) > largest) largest = Math.abs(value);
   return largest;
 }
+
+// The time that a run took, of its statistics; a page without a server has no clock of CPU time.
+export const runTime = ({ cpu_seconds: known, cpu_time: cpu, wall_time: wall }) => (known > 0 ? `${cpu} of CPU time` : wall);

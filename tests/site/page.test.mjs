@@ -1,0 +1,146 @@
+// The site in a browser, from a static host and from disk: all that it does, it does in the page.
+import assert from 'node:assert/strict';
+import { readFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { after, before, test } from 'node:test';
+import { gzipSync } from 'node:zlib';
+import { netlist, number, redrawn, shows, slider } from '../web/desk.mjs';
+import { accessible, browser, done, watched } from '../web/support.mjs';
+import { host, oneFile, site } from './page.mjs';
+
+let chromium;
+let hosted;
+before(async () => {
+  chromium = await browser();
+  hosted = await host();
+});
+after(async () => {
+  await chromium.close();
+  await hosted.stop();
+});
+
+// A page of the site; with `cut` without any network. `close` fails if anything was wrong with it.
+async function open(address, { cut = false, ...options } = {}) {
+  const context = await chromium.newContext({ viewport: { width: 1500, height: 950 }, acceptDownloads: true, offline: cut, ...options });
+  const { page, wrong } = await watched(context, cut ? 'file' : hosted.origin);
+  await page.goto(address);
+  if (address.includes('#')) await done(page);
+  const close = async () => {
+    assert.deepEqual(wrong, []);
+    await context.close();
+  };
+  return { page, context, close };
+}
+
+async function exported(page, label) {
+  const download = page.waitForEvent('download');
+  await page.getByRole('button', { name: 'Export' }).click();
+  await page.getByRole('menuitem', { name: label }).click();
+  return readFileSync(await (await download).path(), 'utf8');
+}
+
+test('it is small', () => {
+  const compressed = (name) => gzipSync(readFileSync(join(site, name)), { level: 9 }).length;
+  const parts = ['index.html', 'playground.css', 'playground.js', 'worker.js.gz', 'rheonet.wasm.gz', 'netlists.json.gz'];
+  assert.ok(parts.reduce((sum, name) => sum + compressed(name), 0) < 2e6);
+  assert.ok(compressed('rheonet.html') < 2e6);
+});
+
+for (const [what, address, cut] of [['a static host', () => hosted.address, false], ['disk, without a network', () => oneFile, true]]) {
+  test(`from ${what}: gallery, sliders, text, comparison, animation, exports, reports, links`, async () => {
+    const begun = performance.now();
+    const { page, context, close } = await open(address(), { cut });
+    await page.waitForSelector('dialog.gallery[open] .card svg');
+    const took = performance.now() - begun;
+    assert.ok(took < 10_000, `the first picture took ${took} ms`);
+    assert.ok((await page.locator('.card').count()) > 80);
+    await accessible(page, 'gallery');
+    await page.locator('.gallery input').fill('bingham yields');
+    await page.locator('.card:visible').first().click();
+    await done(page);
+    assert.equal(await page.textContent('.question'), 'Paint runs down the wall while it is brushed, and then stays. What makes a liquid hold still?');
+
+    // The force of the spring in the end is the yield force.
+    await shows(page, 0.99, 'spring.force', 5, 2e-2);
+    await redrawn(page, () => number(page, 'parameters.Fc').fill('3').then(() => number(page, 'parameters.Fc').press('Enter')));
+    await shows(page, 0.99, 'spring.force', 3, 2e-2);
+    assert.match(await netlist(page), /Fc = "3 N"/);
+    await redrawn(page, () => slider(page, 'parameters.Fc').focus().then(() => page.keyboard.press('ArrowRight')));
+
+    await page.getByRole('button', { name: 'Compare' }).click();
+    await done(page);
+    await redrawn(page, () => number(page, 'parameters.Fc').fill('6').then(() => number(page, 'parameters.Fc').press('Enter')));
+    await shows(page, 0.99, 'B spring.force', 6, 2e-2);
+    await page.getByRole('button', { name: '▶ Animate' }).click();
+    await page.waitForFunction(() => Number(document.querySelector('.animation input').value) > 10);
+    await page.getByRole('button', { name: /Pause/ }).click();
+
+    assert.match(await exported(page, 'Rows (CSV)'), /^time,grip\.position,mid\.position,spring\.force\n0,0,0,0\n/);
+    assert.match(await exported(page, 'Plots (SVG)'), /<svg .*B spring\.force.*<\/svg>\s*$/s);
+    const report = await exported(page, 'Report (HTML)');
+    assert.match(report, /Bingham: what yields, and when/);
+
+    await page.getByRole('button', { name: 'Link' }).click();
+    await page.waitForFunction(() => location.hash.startsWith('#scene='));
+    const link = page.url();
+    const other = await open(link, { cut });
+    assert.match(await netlist(other.page), /Fc = "6 N"/);
+    await other.close();
+    assert.equal(context.pages().length, 1);
+    await close();
+  });
+}
+
+test('embedded: the scene of a link, its schematic, sliders and plots, and a way to all of it', async () => {
+  const { page, close } = await open(`${hosted.address}?embed#file=teaching/bingham.toml`, { viewport: { width: 700, height: 600 } });
+  for (const part of ['.schematic-box', '.sliders-box', '.plots-box']) assert.ok(await page.locator(part).isVisible(), part);
+  for (const part of ['.editor-box', '.actions', '.more-box']) assert.ok(!(await page.locator(part).isVisible()), part);
+  assert.equal(await page.locator('dialog[open]').count(), 0);
+  assert.equal(await page.getByRole('link', { name: 'Open in the playground' }).getAttribute('href'), `${hosted.address}#file=teaching/bingham.toml`);
+  await close();
+});
+
+test('the drawing of a scene of more than 60 elements moves too', async () => {
+  const { page, close } = await open(`${hosted.address}#file=teaching/couette-lag.toml`);
+  const places = () => page.evaluate(() => [...document.querySelectorAll('.drawing [data-element]')].map(({ style }) => style.transform));
+  await page.locator('.animation input').fill('900');
+  const late = await places();
+  await page.locator('.animation input').fill('300');
+  const early = await places();
+  assert.ok(late.filter((place, k) => place !== early[k]).length > 10);
+  await close();
+});
+
+test('from disk on a phone', async () => {
+  const { page, close } = await open(`${oneFile}#file=teaching/stick-slip.toml`, { cut: true, viewport: { width: 390, height: 844 }, isMobile: true, hasTouch: true });
+  assert.equal(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), true);
+  assert.ok(await page.locator('.drawing [data-element]').count());
+  await close();
+});
+
+test('units of the library UDUNITS-2, mistakes, and runs that never end', async () => {
+  const { page, close } = await open(`${hosted.address}#file=teaching/oscillator-free.toml`);
+  const write = async (text) => {
+    await page.locator('.cm-content').click();
+    await page.keyboard.press('Control+a');
+    await page.keyboard.insertText(text);
+  };
+  const scene = (stiffness, extra = '') => `[elements]
+k1 = { type = "spring", between = ["block", "ground"], stiffness = "${stiffness}" }
+m1 = { type = "mass", at = "block", mass = "1 kg" }
+[nodes]
+block = { position = "1 cm" }
+[simulate]
+stop = "2 s"
+${extra}`;
+  await redrawn(page, () => write(scene('2 kip/fathom')));
+  await write(scene('2 quibble/m'));
+  await page.waitForSelector('.mistake.error');
+  assert.match(await page.textContent('.mistakes'), /unknown unit `quibble`/);
+  // A newer text ends a run that takes long.
+  await write(scene('1e15 N/m', 'accuracy = 1e-10'));
+  await page.waitForTimeout(1000);
+  await redrawn(page, () => write(scene('100 N/m')));
+  assert.equal(await page.locator('.mistake').count(), 0);
+  await close();
+});

@@ -1,0 +1,74 @@
+#include "tools/serve/requests.hpp"
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "tools/serve/folder.hpp"
+#include "tools/serve/netlist_name.hpp"
+
+namespace rheonet::serve {
+
+using nlohmann::json;
+
+namespace {
+
+constexpr std::size_t most_compared = 4, most_curves = 200, longest_name = 1000;
+
+/// A netlist as a worker gets it; absent if it is not one.
+std::optional<json> scene_of(const json& value) {
+  if (!value.is_object() || !value.contains("text") || !value["text"].is_string()) return {};
+  const std::string file = word(value, "file");
+  const std::string folder = fault_of_name(file).empty() ? std::filesystem::path(file).parent_path().string() : "";
+  return json{{"text", value["text"]}, {"file", file.empty() ? "scene.toml" : file}, {"folder", folder}};
+}
+
+}  // namespace
+
+std::string word(const json& value, const char* key) {
+  const auto found = value.find(key);
+  if (found == value.end() || !found->is_string()) return "";
+  const auto& text = found->get_ref<const std::string&>();
+  return text.size() <= longest_name ? text : "";
+}
+
+std::optional<json> task_of(const json& request) {
+  const std::string kind = word(request, "task");
+  if (kind == "show" || kind == "explain" || kind == "csv") {
+    std::optional<json> task = scene_of(request);
+    if (!task) return {};
+    (*task)["task"] = kind;
+    (*task)["draw"] = request.value("draw", json()) == true;
+    return task;
+  }
+  if ((kind != "report" && kind != "figure") || !request.contains("scenes") || !request["scenes"].is_array()) return {};
+  json task{{"task", kind}, {"scenes", json::array()}, {"curves", json::array()}};
+  if (request["scenes"].empty() || request["scenes"].size() > most_compared) return {};
+  for (const json& scene : request["scenes"]) {
+    std::optional<json> one = scene_of(scene);
+    if (!one) return {};
+    task["scenes"].push_back(std::move(*one));
+  }
+  if (kind == "report") return task;
+  if (!request.contains("curves") || !request["curves"].is_array() || request["curves"].size() > most_curves) return {};
+  for (const json& curve : request["curves"]) {
+    if (!curve.is_array() || curve.size() != 2 || !curve[0].is_string() || !curve[1].is_string()) return {};
+    task["curves"].push_back(curve);
+  }
+  return task;
+}
+
+json listing_of(const Folder& folder) {
+  json scenes = json::array();
+  const Folder::Listing listing = folder.scenes();
+  for (const Folder::Entry& each : listing.scenes) {
+    scenes.push_back({{"file", each.file}, {"title", each.title}, {"about", each.about}});
+    if (each.place) scenes.back()["place"] = *each.place;
+  }
+  return {{"name", folder.path().filename().string()},
+          {"may_be_written", folder.may_be_written()},
+          {"left_out", listing.left_out},
+          {"all_visited", listing.all_visited},
+          {"scenes", scenes}};
+}
+
+}  // namespace rheonet::serve

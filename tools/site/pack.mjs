@@ -1,0 +1,71 @@
+// node pack.mjs WEB BUILD NETLISTS OUTPUT: puts the site together in OUTPUT, of the bundled pages in WEB, what build.sh has made in BUILD,
+// and the netlists.
+import { readdirSync, readFileSync, existsSync, mkdirSync, writeFileSync } from 'node:fs';
+import { dirname, join, relative } from 'node:path';
+import { fileURLToPath } from 'node:url';
+import { gzipSync } from 'node:zlib';
+
+const here = dirname(fileURLToPath(import.meta.url));
+const [web, build, netlists, output] = process.argv.slice(2);
+const [wasm, sources] = [join(build, 'wasm'), join(build, 'sources')];
+const read = (folder, name) => readFileSync(join(folder, name), 'utf8');
+
+// The file system of the module: what its file offer gives (tools/serve/below.hpp), the pages that order the gallery, and the
+// template of reports, and the units.
+const files = { '/report.html': read(web, 'report.html'), '/units.txt': read(build, 'units.txt') };
+for (const entry of readdirSync(netlists, { withFileTypes: true, recursive: true })) {
+  const path = join(entry.parentPath ?? entry.path, entry.name);
+  if (entry.isFile() && /\.(toml|csv)$|^README\.md$/.test(entry.name)) files[`/netlists/${relative(netlists, path)}`] = readFileSync(path, 'utf8');
+}
+
+// What the module holds besides rheonet.
+const held = [
+  ['SUNDIALS 6.4.1 (BSD-3-Clause)', join(sources, 'sundials/LICENSE')],
+  ['AMD, BTF, COLAMD and KLU of SuiteSparse 5.12.0 (BSD-3-Clause, LGPL-2.1-or-later)', join(sources, 'suitesparse/LICENSE.txt')],
+  ...[['Boost', 'libboost-dev', 'libboost1.74-dev'], ['Eigen', 'libeigen3-dev'], ['fast_float', 'libfast-float-dev'], ['{fmt}', 'libfmt-dev'],
+    ['JSON for Modern C++', 'nlohmann-json3-dev'], ['toml++', 'libtomlplusplus-dev'], ['The run-time libraries of Emscripten', 'emscripten']]
+    .map(([name, ...packages]) => [name, packages.map((each) => `/usr/share/doc/${each}/copyright`).find(existsSync)]),
+];
+const licences = [read(web, 'NOTICE'), ...held.map(([name, file]) => {
+  if (!file) throw new Error(`${name} has no text of its licence`);
+  return `${'-'.repeat(78)}\n${name}\n\n${readFileSync(file, 'utf8').trim()}\n`;
+})].join('\n');
+
+const packed = {
+  'worker.js': Buffer.from(`${read(wasm, 'rheonet.js')}\n${read(here, 'worker.js')}`),
+  'rheonet.wasm': readFileSync(join(wasm, 'rheonet.wasm')),
+  'netlists.json': Buffer.from(JSON.stringify(files)),
+};
+for (const name in packed) packed[name] = gzipSync(packed[name], { level: 9 });
+
+// A page of the playground's source with its marks replaced; `by` is a function, as a text may have a $ in it.
+function page(fillings) {
+  let text = read(join(here, '../web/src'), 'playground.html');
+  for (const [mark, by] of fillings) {
+    if (!text.includes(mark)) throw new Error(`${mark} is missing`);
+    text = text.replace(mark, () => by);
+  }
+  return text;
+}
+const head = (script, connect) => `<meta name="rheonet-engine" content="page">
+<meta http-equiv="Content-Security-Policy" content="default-src 'none'; script-src ${script} 'wasm-unsafe-eval' blob:; worker-src blob:; connect-src ${connect}; style-src 'self' 'unsafe-inline'; img-src 'self' data: blob:; font-src data:; base-uri 'none'; form-action 'none'">`;
+const preloaded = ['worker.js', 'rheonet.wasm', 'netlists.json'].map((name) => `<link rel="preload" as="fetch" crossorigin href="${name}.gz">`).join('\n');
+const script = read(web, 'playground.js').replaceAll('</script', '<\\/script');
+const inert = (id, text) => `<script type="text/plain" id="${id}">${text}</script>`;
+
+mkdirSync(output, { recursive: true });
+const write = (name, content) => writeFileSync(join(output, name), content);
+for (const [name, bytes] of Object.entries(packed)) write(`${name}.gz`, bytes);
+write('index.html', page([['<!-- engine -->', `${head("'self'", "'self'")}\n${preloaded}`]]));
+for (const name of ['playground.css', 'playground.js']) write(name, read(web, name));
+write('licences.txt', licences);
+write('rheonet.html', page([
+  ['<!-- engine -->', head("'unsafe-inline'", "'none'")],
+  ['<link rel="stylesheet" href="playground.css">', `<style>${read(web, 'playground.css')}</style>`],
+  ['<script src="playground.js"></script>', [
+    inert('licences', licences.replaceAll('</script', '<\\/script')),
+    ...Object.entries(packed).map(([name, bytes]) => inert(`part-${name}`, bytes.toString('base64'))),
+    `<script>${script}</script>`].join('\n')],
+]));
+const size = (names) => names.reduce((sum, name) => sum + gzipSync(readFileSync(join(output, name)), { level: 9 }).length, 0);
+console.log(`site: ${size(['index.html', 'playground.css', 'playground.js', ...Object.keys(packed).map((name) => `${name}.gz`)])} bytes compressed; as one file: ${size(['rheonet.html'])}`);

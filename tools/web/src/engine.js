@@ -1,0 +1,137 @@
+// The transport to rheonet as WebAssembly, which runs in Web Workers of this page. Its parts (the worker's script, the module, the
+// netlists) are elements of the page, in the page that is a single file, or else files beside it.
+
+async function inflated(part) {
+  const embedded = document.getElementById(`part-${part}`)?.textContent;
+  // Not fetch: a page that was opened from disk may not use it, even for a data: address.
+  const bytes = embedded
+    ? new Blob([Uint8Array.from(atob(embedded), (c) => c.charCodeAt(0))])
+    : await (await answered(`${part}.gz`)).blob();
+  const isPacked = new Uint8Array(await bytes.slice(0, 2).arrayBuffer()).join() === '31,139'; // gzip; a host may have unpacked it
+  return new Response(isPacked ? bytes.stream().pipeThrough(new DecompressionStream('gzip')) : bytes);
+}
+
+async function answered(file) {
+  const response = await fetch(new URL(file, document.baseURI)).catch(() => null);
+  if (!response?.ok) throw new Error(`a part of this page cannot be loaded: ${file}`);
+  return response;
+}
+
+async function loaded() {
+  const [script, module, files] = await Promise.all([
+    inflated('worker.js').then((part) => part.blob()),
+    inflated('rheonet.wasm').then(async (part) => WebAssembly.compile(await part.arrayBuffer())),
+    inflated('netlists.json').then((part) => part.json()),
+  ]);
+  return { address: URL.createObjectURL(new Blob([script], { type: 'text/javascript' })), module, files };
+}
+let parts = null;
+
+// A worker does one request at a time; one that is cancelled while it runs ends with its worker.
+class Desk {
+  constructor() {
+    this.request = null;
+  }
+
+  start() {
+    this.started ??= this.begin();
+    return this.started;
+  }
+
+  async begin() {
+    parts ??= loaded();
+    const { address, module, files } = await parts;
+    this.worker = new Worker(address);
+    this.worker.onmessage = ({ data }) => this.take(data);
+    this.worker.onerror = ({ message }) => this.take({ wrong: message || 'the worker of this page has ended' });
+    this.worker.postMessage({ module, files });
+  }
+
+  async give(request) {
+    this.request = request;
+    try {
+      await this.start();
+    } catch (error) {
+      this.end(error);
+      return;
+    }
+    if (this.request !== request) return; // cancelled meanwhile
+    this.worker.postMessage({ path: request.path, body: JSON.stringify(request.body) });
+  }
+
+  take({ message, wrong, done }) {
+    const { request } = this;
+    if (!request) return;
+    if (message !== undefined) request.onmessage(JSON.parse(message));
+    if (!wrong && !done) return;
+    if (wrong) this.restart();
+    this.end(wrong && new Error(wrong));
+  }
+
+  end(error) {
+    const { request } = this;
+    this.request = null;
+    if (error) request.reject(error);
+    else request.resolve();
+    next();
+  }
+
+  restart() {
+    this.worker?.terminate();
+    this.worker = null;
+    this.started = null;
+  }
+
+  cancel() {
+    const { worker } = this;
+    if (worker) this.restart();
+    if (worker) this.start().catch(() => {}); // so that the next request finds it ready
+    this.end(new DOMException('cancelled', 'AbortError'));
+  }
+}
+
+// Two: what the editor shows does not wait for a report or for the pictures of the gallery.
+const desks = [new Desk(), new Desk()];
+const waiting = [];
+
+function next() {
+  for (const desk of desks) {
+    // The first is kept for what has a session: the netlist in the editor.
+    const k = desk.request ? -1 : waiting.findIndex(({ body }) => (desk === desks[0] ? body.task === 'show' && body.session : true));
+    if (k >= 0) desk.give(waiting.splice(k, 1)[0]);
+  }
+}
+
+function ask(path, body, onmessage, signal) {
+  return new Promise((resolve, reject) => {
+    const request = { path, body, onmessage, resolve, reject };
+    signal?.addEventListener('abort', () => {
+      const k = waiting.indexOf(request);
+      if (k >= 0) waiting.splice(k, 1);
+      if (k >= 0) reject(new DOMException('cancelled', 'AbortError'));
+      else desks.find((desk) => desk.request === request)?.cancel();
+    });
+    waiting.push(request);
+    next();
+  });
+}
+
+async function one(path, body) {
+  let answer = null;
+  await ask(path, body, (message) => (answer = message));
+  if (answer.error) throw new Error(answer.error);
+  return answer;
+}
+
+export const folder = () => one('/api/folder', {});
+
+export const open = (file) => one('/api/scene', { file });
+
+export const save = async () => {
+  throw new Error('this page has no folder to save in');
+};
+
+export const task = (request, onmessage, signal) =>
+  ask('/api/task', request, (message) => {
+    onmessage(message.error ? { kind: 'failed', message: message.error } : message);
+  }, signal);
