@@ -27,12 +27,14 @@ struct WideBound {
 class DualActiveSet {
  public:
   DualActiveSet(const LeastNorm& problem, const Eigen::VectorXd& load, double share) : problem_(problem), share_(share) {
+    rows_.resize(problem.balance.cols(), 0);
+    without_bounds_.setZero(problem.balance.cols());
+    if (problem.balance.size() == 0) return;
     // Where forces were taken out, balances may depend on each other.
     Eigen::ColPivHouseholderQR<Eigen::MatrixXd> factors(problem.balance.cols(), problem.balance.rows());
     factors.setThreshold(numerics::equal_values);
     factors.compute(problem.balance.transpose());
     rows_ = factors.householderQ() * Eigen::MatrixXd::Identity(problem.balance.cols(), factors.rank());
-    without_bounds_.setZero(problem.balance.cols());
     if (factors.rank() == 0) return;
     without_bounds_ = rows_ * (problem.balance * rows_).colPivHouseholderQr().solve(load);
     roundoff_ = numerics::equation_roundoff * without_bounds_.lpNorm<Eigen::Infinity>();
