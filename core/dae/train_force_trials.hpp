@@ -18,8 +18,8 @@ class TrainForceTrials {
   /// `forces`: size of the forces in the balance [N]. Trials that agree to their round-off agree.
   TrainForceTrials(const Network& network, const Inputs& inputs, const std::vector<double>& first, double forces);
 
-  /// For one train with losses: trials around forces of either sign, from large to small. The relation is linear around each, and one of
-  /// these lines leads to forces that agree if there are any.
+  /// Trials around forces from large to small: of all trains with losses alike, of either sign, and with one of them of the other sign. The
+  /// relation is linear around each. For one train, one of these lines leads to forces that agree if there are any.
   static std::vector<TrainForceTrials> around(const Network& network, const Inputs& inputs, double forces);
 
   /// The trial forces of all trains [N].

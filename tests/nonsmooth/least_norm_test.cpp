@@ -110,6 +110,29 @@ double largest_share(const Problem& p) {
   return largest;
 }
 
+/// Bounds that contradict a load are a proof (J. Farkas 1902): velocities of the nodes at which the load has more power than forces at these bounds
+/// can take, while all other forces have none. Where there is no contradiction, the forces are those of `x`.
+void check_contradiction(const Problem& p, const Eigen::VectorXd& x, bool beyond) {
+  std::vector<double> force;
+  std::vector<LeastNorm::Bound> bounds;
+  REQUIRE(p.problem.solve_within({p.load.begin(), p.load.end()}, force, bounds));
+  REQUIRE(bounds.empty() == !beyond);
+  if (!beyond) {
+    for (Eigen::Index k = 0; k < p.forces(); ++k) CHECK(std::abs(force[static_cast<std::size_t>(k)] - x[k]) < 1e-9);
+    return;
+  }
+  Eigen::VectorXd motion = Eigen::VectorXd::Zero(p.forces());
+  double taken = 0;
+  for (const auto& [k, side, share] : bounds) {
+    CHECK(share > 0);
+    motion[static_cast<Eigen::Index>(k)] = side * share;
+    taken += share * (side > 0 ? p.problem.high[k] : -p.problem.low[k]);
+  }
+  const Eigen::VectorXd velocity = p.problem.balance.transpose().colPivHouseholderQr().solve(motion);
+  CHECK((p.problem.balance.transpose() * velocity - motion).norm() < 1e-9 * motion.norm());
+  CHECK(p.load.dot(velocity) > taken);
+}
+
 }  // namespace
 
 TEST_CASE("least norm: random balances, beside the answer among all guesses and the largest share of the load") {
@@ -135,6 +158,7 @@ TEST_CASE("least norm: random balances, beside the answer among all guesses and 
         CHECK(share == doctest::Approx(largest_share(p)).epsilon(1e-9));
         CHECK(share > 1);
       }
+      check_contradiction(p, x, share > 1);
     }
   }
   CHECK(within > 500);

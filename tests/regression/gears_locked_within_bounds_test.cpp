@@ -1,0 +1,102 @@
+// Gears whose forces are open while brakes, freewheels and losses hold them: what these hold together is less than what forces shared
+// without regard to their bounds would need. Such scenes ended in "it cannot be decided what slips".
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include <string>
+#include <vector>
+
+#include "tests/support/simulate.hpp"
+
+namespace rheonet::test {
+
+namespace {
+
+struct Locked {
+  const char* what;
+  std::string elements;
+  std::string simulate = {};
+};
+
+const std::vector<Locked> scenes{
+    {"a rotor comes to rest between its brake and a slider to a gear that is loaded from behind", R"(
+rotor = { type = "inertia", at = "a", inertia = 0.2038 }
+load = { type = "inertia", at = "c", inertia = 0.4277 }
+clutch = { type = "slider", between = ["a", "b"], coulomb = 0.3 }
+gear = { type = "gear", between = ["b", "c"], ratio = 4.12, efficiency = 0.65 }
+shaft = { type = "spring", between = ["c", "ground"], stiffness = 1.807 }
+brake = { type = "slider", between = ["a", "ground"], coulomb = 1.617 }
+push = { type = "torque", at = "c", torque = 1 }
+kick = { type = "torque", at = "a", torque = { pulse = -40, width = 0.001 } }
+)"},
+    {"the brake of a gear, and the gear's losses, beside a freewheel", R"(
+wheel = { type = "inertia", at = "b", inertia = 8.006 }
+end = { type = "inertia", at = "c", inertia = 0.8941 }
+gear = { type = "gear", between = ["a", "b"], ratio = 3.39, efficiency = 0.5 }
+clutch = { type = "slider", between = ["b", "c"], coulomb = 0.3 }
+free = { type = "freewheel", between = ["c", "ground"] }
+brake = { type = "slider", between = ["a", "ground"], coulomb = 0.11 }
+kick = { type = "torque", at = "c", torque = { pulse = -2.964, width = 0.1, frequency = 1.063 } }
+push = { type = "torque", at = "b", torque = 1 }
+)"},
+    {"two freewheels behind a gear with a bearing, from rest", R"(
+wheel = { type = "inertia", at = "b", inertia = 0.718 }
+gear = { type = "gear", between = ["a", "b"], ratio = 0.316, efficiency = 0.876, bearing = 0.251 }
+free1 = { type = "freewheel", between = ["b", "c"] }
+free2 = { type = "freewheel", between = ["c", "d"] }
+shaft = { type = "spring", between = ["d", "ground"], stiffness = 101.8 }
+push = { type = "torque", at = "c", torque = { square = -3.679, frequency = 2.853 } }
+)", "start_from = \"rest\""},
+    {"three gears with losses in a row, turned back by a lag", R"(
+wheel = { type = "inertia", at = "b", inertia = 4.157 }
+gear1 = { type = "gear", between = ["a", "b"], ratio = 3.72, efficiency = 0.5 }
+gear2 = { type = "gear", between = ["b", "c"], ratio = 2.34, efficiency = 0.366 }
+gear3 = { type = "gear", between = ["c", "d"], ratio = 0.894, efficiency = [0.735, 0.124] }
+push = { type = "torque", at = "b", torque = -3 }
+turn = { type = "generator", signal = { step = 7, time = 1 } }
+late = { type = "lag", in = "turn", time_constant = 0.3 }
+back = { type = "torque", at = "d", torque = { block = "late" } }
+)"},
+    {"a planetary gear whose sun and carrier a freewheel joins", R"(
+carrier = { type = "inertia", at = "carrier", inertia = 0.2938 }
+load = { type = "inertia", at = "load", inertia = 0.251 }
+free = { type = "freewheel", between = ["sun", "carrier"] }
+clutch = { type = "slider", between = ["carrier", "ring"], coulomb = 0.3, normal = { pulse = 10.92, width = 0.1, frequency = 0.5163 } }
+gear = { type = "gear", between = ["ring", "load"], ratio = -1.03 }
+set = { type = "planetary", between = ["sun", "carrier", "ring"], ratio = 1.43 }
+push = { type = "torque", at = "load", torque = { cosine = -3.436, frequency = 1.339, offset = -3.436 } }
+)"},
+    {"idle gears at a shaft that a brake holds", R"(
+shaft = { type = "inertia", at = "c", inertia = 0.6537 }
+gear1 = { type = "gear", between = ["a", "b"], ratio = -1.32, efficiency = 0.338 }
+gear2 = { type = "gear", between = ["b", "c"], ratio = -0.483, efficiency = [0.459, -0.308] }
+brake = { type = "slider", between = ["c", "ground"], coulomb = 1 }
+push = { type = "torque", at = "c", torque = { ramp = -0.9166 } }
+)"},
+    {"a gear that hardly any force reaches yet, through a dashpot", R"(
+first = { type = "inertia", at = "b", inertia = 7.772 }
+second = { type = "inertia", at = "c", inertia = 0.1356 }
+gear1 = { type = "gear", between = ["a", "b"], ratio = -3.09, efficiency = 0.515, bearing = 0.201 }
+drag = { type = "dashpot", between = ["b", "c"], damping = 0.5009 }
+gear2 = { type = "gear", between = ["c", "d"], ratio = 2.67, efficiency = 0.309 }
+shaft = { type = "spring", between = ["d", "ground"], stiffness = 51.29 }
+push = { type = "torque", at = "b", torque = 1 }
+)"},
+};
+
+}  // namespace
+
+TEST_CASE("gears that brakes, freewheels and losses lock") {
+  for (const Locked& one : scenes) {
+    const std::string text = fmt::format("domain = \"rotation\"\n[elements]{}[simulate]\nstop = 4\noutput = {{ points = 41 }}\n{}\n", one.elements, one.simulate);
+    CAPTURE(std::string(one.what));
+    Summary summary;
+    const RunTable exact = simulate(scene_of(text), &summary);
+    CHECK_LE(std::abs(summary.missing), 1e-11 * summary.largest);
+    Scene by_ida = scene_of(text, 1e-9);
+    by_ida.method = Scene::Method::ida;
+    CHECK_LE(largest_error(simulate(by_ida), exact), 1e-7);
+  }
+}
+
+}  // namespace rheonet::test
