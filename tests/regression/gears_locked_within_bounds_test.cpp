@@ -3,6 +3,8 @@
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
+#include <cmath>
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -86,7 +88,7 @@ push = { type = "torque", at = "b", torque = 1 }
 
 }  // namespace
 
-TEST_CASE("gears that brakes, freewheels and losses lock") {
+TEST_CASE("gears that brakes and freewheels lock together with losses") {
   for (const Locked& one : scenes) {
     const std::string text = fmt::format("domain = \"rotation\"\n[elements]{}[simulate]\nstop = 4\noutput = {{ points = 41 }}\n{}\n", one.elements, one.simulate);
     CAPTURE(std::string(one.what));
@@ -95,7 +97,14 @@ TEST_CASE("gears that brakes, freewheels and losses lock") {
     CHECK_LE(std::abs(summary.missing), 1e-11 * summary.largest);
     Scene by_ida = scene_of(text, 1e-9);
     by_ida.method = Scene::Method::ida;
-    CHECK_LE(largest_error(simulate(by_ida), exact), 1e-7);
+    const RunTable rows = simulate(by_ida);
+    for (const std::string& column : exact.header) {
+      CAPTURE(column);
+      REQUIRE(rows[column].size() == exact[column].size());
+      // An idle gear transmits round-off.
+      const double tolerance = 1e-7 * exact.scale(column) + 1e-13;
+      for (std::size_t k = 0; k < rows[column].size(); ++k) CHECK_LE(std::abs(rows[column][k] - exact[column][k]), tolerance);
+    }
   }
 }
 
