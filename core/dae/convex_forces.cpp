@@ -34,25 +34,16 @@ void ConvexNetwork::find_bond_forces(double roundoff) {
     const bool reference = column_[at(cluster_[k])] >= 0 && head_[at(cluster_[k])] == static_cast<int>(k);
     if (!fixed_[k] && !reference) row[k] = rows++;
   }
-  std::vector<Conductance> bonds;
-  Eigen::VectorXd phi = Eigen::VectorXd::Zero(rows);
-  std::vector<char> touched(at(rows), 0);
-  for (const Branch& b : branches_) {
-    if (!b.stuck) continue;
-    const int i = row[at(b.a)], j = row[at(b.b)];
-    bonds.push_back({i, j, 1});
-    for (int r : {i, j}) {
-      if (r >= 0) touched[at(r)] = 1;
-    }
-  }
-  for (int r = 0; r < rows; ++r) {
-    if (!touched[at(r)]) bonds.push_back({r, -1, 1});
-  }
+  Eigen::VectorXd phi(rows);  // the loads, then the potentials
   for (std::size_t k = 0; k < u_.size(); ++k) {
-    if (row[k] >= 0) phi[row[k]] = touched[at(row[k])] ? -left[k] : 0;
+    if (row[k] >= 0) phi[row[k]] = -left[k];
   }
   if (!equations_.empty()) return share_with_locked_equations(row, phi, roundoff);
   // Every cluster has its reference: nothing is left open.
+  std::vector<Conductance> bonds;
+  for (const Branch& b : branches_) {
+    if (b.stuck) bonds.push_back({row[at(b.a)], row[at(b.b)], 1});
+  }
   solve_conductances(bonds, phi);
   const auto potential = [&](int node) { return row[at(node)] < 0 ? 0 : phi[row[at(node)]]; };
   for (std::size_t k = 0; k < branches_.size(); ++k) {

@@ -351,11 +351,11 @@ class Explainer {
     Explanation::Cost& cost = result_.cost;
     std::atomic<bool> enough = false;
     std::vector<double> fractions;
-    const double begin = cpu_seconds();
+    const double begin = thread_cpu_seconds();
     double spent = 0;
     const auto tried = [&](double fraction) {
       fractions.push_back(fraction);
-      spent = cpu_seconds() - begin;
+      spent = thread_cpu_seconds() - begin;
       enough = spent > numerics::trial_run_time && fractions.size() >= numerics::trial_run_steps;
     };
     try {

@@ -302,7 +302,7 @@ namespace {
 Summary integrate(const Scene& scene, const RunSettings& settings, bool locate_events) {
   if (const std::optional<Scene> converted = in_common_units(scene)) return integrate(*converted, settings, locate_events);
   const auto wall = std::chrono::steady_clock::now();
-  const double cpu = cpu_seconds();
+  const double cpu = thread_cpu_seconds();
   Scene::Method method = settings.method.value_or(scene.method);
   // Arcs have no order, and locate every event.
   if (method == Scene::Method::automatic && (settings.order != Integrator::highest_order || !locate_events)) method = Scene::Method::ida;
@@ -361,7 +361,7 @@ Summary integrate(const Scene& scene, const RunSettings& settings, bool locate_e
         std::abs(summary.missing) / summary.largest, scene.accuracy));
   }
   summary.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - wall).count();
-  summary.cpu_seconds = cpu_seconds() - cpu;
+  summary.cpu_seconds = thread_cpu_seconds() - cpu;
   return summary;
 }
 

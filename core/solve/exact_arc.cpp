@@ -29,10 +29,10 @@ struct ExactArc::Implementation {
   VectorXd y0;
   MatrixXd given;              ///< coefficients of h by the functions of time since `begin`
   VectorXd z;                  ///< at `from`
-  double from = 0, step = 0;   ///< begin [s since `begin`] and length [s] of the last step
+  double from = 0, step = 0;   ///< of the last step: its start [s since `begin`] and its length [s]
   StepNodes::Values y, yp;          ///< the solution less y0, and its rate, in the last step
   StepNodes::Values states, rates;  ///< z and its rate there
-  MatrixXd pushes, given_part, given_rate;  ///< coefficients of L h, of what h adds to d, and of its rate
+  MatrixXd pushes, given_part, given_rate;  ///< coefficients of three vectors: L h, the part of d that h adds, its rate
   VectorXd drive;              ///< see LinearEquations::drive
   mutable double place = not_given;   ///< where in the step the solution was asked for last, as a share of it
   mutable StepNodes::Shares shares;   ///< StepNodes::at(place)

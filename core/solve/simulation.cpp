@@ -318,7 +318,9 @@ class Run {
       // Hops that end in rest are no chattering, as long as time resolves them.
       const bool hops = impact_ == t && t - hopped_ > time_roundoff(t);
       if (impact_ == t) hopped_ = t;
-      if (impact_ == t && chatter_.squeezed(t, fired_.front(), settings_.stop - t)) report_squeeze(t);
+      if (impact_ == t && chatter_.squeezed(t, fired_.front(), settings_.stop - t)) {
+        throw SimulationError(network_.spot_of(fired_.front()), at_time(*network_.scene, t) + " " + chatter_.describe_squeeze(network_));
+      }
       if (!hops && gets_nowhere(t, fired_)) report_chatter(t);
       until = std::min(until, inputs_.next_break());  // the event may be a discontinuity of a delayed signal
       if (t >= until) return until;
@@ -347,10 +349,6 @@ class Run {
     const double rate = std::max(system_->consistency.fastest_rate(t, horizon(t), y_, yp_), inputs_.fastest());
     if (rate > 0 ? (t - chatter_.since()) * rate < 1 : t - chatter_.since() < numerics::chatter_time * horizon(t)) return true;
     return chatter_.without_end(t, numerics::endless_time * settings_.stop);
-  }
-
-  [[noreturn]] void report_squeeze(double t) const {
-    throw SimulationError(network_.spot_of(fired_.front()), at_time(*network_.scene, t) + " " + chatter_.describe_squeeze(network_));
   }
 
   [[noreturn]] void report_chatter(double t) const {

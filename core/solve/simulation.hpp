@@ -34,7 +34,7 @@ struct SimulationSettings {
   double stop = 1;  ///< s; the start is at 0
   double accuracy = 1e-6;
   int order = Integrator::highest_order;  ///< highest order of the method: see Integrator::Options
-  int arc_unknowns = 0;         ///< see Integrator::Options
+  int arc_unknowns = 0;       ///< see Integrator::Options
   bool locate_events = true;  ///< see Integrator::Options
   bool switch_times = true;  ///< locate the time within a step at which a pair yields, not only the step
   const std::atomic<bool>* interrupt = nullptr;

@@ -1,5 +1,5 @@
-// Gears whose forces are open while brakes, freewheels and losses hold them: what these hold together is less than what forces shared
-// without regard to their bounds would need. Such scenes ended in "it cannot be decided what slips".
+// Brakes, freewheels and losses lock a gear together. Each holds only as much as its bound allows. A search that first shared the load
+// without these bounds ended in "it cannot be decided what slips".
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 

@@ -2,11 +2,10 @@
 // demo, and from the address to the first picture. It wants the environment of the tests: see module.mjs.
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { browser, done } from '../web/support.mjs';
+import { browser, done, moveSlider } from '../web/support.mjs';
 import { netlists, scenes } from './module.mjs';
 import { host, oneFile } from './page.mjs';
 
-const moves = 40;
 const hosted = await host();
 const chromium = await browser();
 const share = (times, part) => times.sort((a, b) => a - b)[Math.floor(part * (times.length - 1))];
@@ -27,21 +26,7 @@ for (const name of scenes().filter((each) => readFileSync(join(netlists, each), 
   const page = await chromium.newPage({ viewport: { width: 1280, height: 900 } });
   await page.goto(`${hosted.address}#file=${name}`);
   await done(page);
-  const times = await page.evaluate(async (count) => {
-    const pause = (time) => new Promise((resolve) => setTimeout(resolve, time));
-    const slider = document.querySelector('[data-slider] input[type=range]');
-    const { dataset } = document.querySelector('.status');
-    const taken = [];
-    for (let k = 0; k < count && slider; ++k) {
-      dataset.latency = '';
-      slider.value = String(100 + ((k * 7) % 200));
-      slider.dispatchEvent(new Event('input', { bubbles: true }));
-      for (let waited = 0; !dataset.latency && waited < 5000; waited += 4) await pause(4);
-      if (dataset.latency) taken.push(Number(dataset.latency));
-      await pause(60 + Math.random() * 40);
-    }
-    return taken;
-  }, moves);
+  const times = (await moveSlider(page, 40)).map(({ drawn }) => drawn);
   await page.close();
   if (!times.length) continue;
   medians.push(share(times, 0.5));

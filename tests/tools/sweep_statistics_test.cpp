@@ -42,7 +42,7 @@ double errors_off(const Json& estimate, double truth) {
   return (estimate["value"].get<double>() - truth) / estimate["standard_error"].get<double>();
 }
 
-// Of the normal distribution: its quantile of 0.95.
+// The 95 % quantile of the standard normal distribution.
 constexpr double z95 = 1.6448536269514722;
 
 }  // namespace

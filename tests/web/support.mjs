@@ -77,6 +77,27 @@ export async function watched(context, origin) {
 export const done = (page) => page.waitForFunction(() =>
   /drawn \d+ ms/.test(document.querySelector('.status').textContent) && document.querySelector('.plots').ariaBusy === 'false');
 
+// Moves the first slider so many times, and tells for each how long it took until the new curves were on the screen, and until the
+// server had answered, if there is one [ms]. A move without curves within 5 s is left out.
+export const moveSlider = (page, count) => page.evaluate(async (moves) => {
+  const pause = (time) => new Promise((resolve) => setTimeout(resolve, time));
+  const slider = document.querySelector('[data-slider] input[type=range]');
+  const { dataset } = document.querySelector('.status');
+  const taken = [];
+  for (let k = 0; k < moves && slider; ++k) {
+    dataset.latency = '';
+    performance.clearResourceTimings();
+    slider.value = String(100 + ((k * 7) % 200));
+    slider.dispatchEvent(new Event('input', { bubbles: true }));
+    for (let waited = 0; !dataset.latency && waited < 5000; waited += 4) await pause(4);
+    const [answer] = performance.getEntriesByType('resource').filter(({ name }) => name.endsWith('/api/task'));
+    if (dataset.latency) taken.push({ drawn: Number(dataset.latency), answered: answer && answer.responseEnd - answer.startTime });
+    // Nobody moves a slider in step with the screen.
+    await pause(60 + Math.random() * 40);
+  }
+  return taken;
+}, count);
+
 // Points at a part of the width of a chart, and waits until its legend says what is there.
 export async function pointAt(page, over, part) {
   await over.scrollIntoViewIfNeeded();

@@ -48,9 +48,9 @@ int main(int count, char** words) try {
   for (int k = 0; k <= intervals; ++k) times.push_back(k * asked.stop / intervals);
   hand::Run run;
   for (int repeat = 0; repeat < std::atoi(words[3]); ++repeat) {
-    const double begin = bench::cpu_seconds();
+    const double begin = bench::process_cpu_seconds();
     run = asked.run(std::atof(words[2]), times);
-    seconds.push_back(bench::cpu_seconds() - begin);
+    seconds.push_back(bench::process_cpu_seconds() - begin);
   }
   fmt::print("# cpu {:.9g}\n", bench::median(seconds));
   for (std::size_t k = 0; k < times.size(); ++k) {

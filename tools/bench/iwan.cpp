@@ -15,7 +15,7 @@ namespace {
 
 using namespace rheonet;
 
-double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+double process_cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 }  // namespace
 
@@ -34,9 +34,9 @@ int main(int count, char** words) {
       double reading = std::numeric_limits<double>::infinity(), simulation = reading;
       Summary summary;
       for (int k = 0; k < repetitions; ++k) {
-        const double begin = cpu_seconds();
+        const double begin = process_cpu_seconds();
         const ReadResult read = read_scene(words[1], declarations(), options);
-        reading = std::min(reading, cpu_seconds() - begin);
+        reading = std::min(reading, process_cpu_seconds() - begin);
         if (!read.scene) {
           for (const Diagnostic& mistake : read.diagnostics) fmt::print(stderr, "{}\n", format(mistake, read.sources));
           return 2;

@@ -7,21 +7,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <functional>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
-namespace rheonet::bench {
+#include "core/result/cpu_time.hpp"
 
-/// CPU time of this process [s].
-inline double cpu_seconds() {
-  std::timespec now{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
+namespace rheonet::bench {
 
 inline double median(std::vector<double> values) {
   std::sort(values.begin(), values.end());

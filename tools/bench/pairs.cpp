@@ -94,12 +94,12 @@ void compare(const Pair& pair, std::FILE* csv, int runs, double tightest) {
     hand::Run run;
     Summary summary;
     for (int k = 0; k < runs; ++k) {
-      double begin = cpu_seconds();
+      double begin = process_cpu_seconds();
       run = pair.by_hand(setting, times);
-      hand_seconds.push_back(cpu_seconds() - begin);
-      begin = cpu_seconds();
+      hand_seconds.push_back(process_cpu_seconds() - begin);
+      begin = process_cpu_seconds();
       summary = rheonet::run(scene, alone);
-      seconds.push_back(cpu_seconds() - begin);
+      seconds.push_back(process_cpu_seconds() - begin);
     }
     by_hand.push_back({setting, error(record_of(run), truth), median(hand_seconds), run.steps});
     netlist.push_back({setting, error(values(scene), truth), median(seconds), summary.steps});

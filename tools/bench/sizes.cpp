@@ -40,19 +40,19 @@ const Family families[] = {
 
 /// Reading [s], simulating [s], unknowns, steps, events, starts.
 std::vector<double> simulated(const std::string& netlist, const std::vector<std::string>& keep) {
-  const double begin = cpu_seconds();
+  const double begin = process_cpu_seconds();
   Scene scene = read(netlist);
   scene.keep = keep;
-  const double read = cpu_seconds();
+  const double read = process_cpu_seconds();
   const Summary summary = run(scene, {.account = false});  // as the programs by hand
-  return {read - begin, cpu_seconds() - read, static_cast<double>(summary.unknowns), static_cast<double>(summary.steps),
+  return {read - begin, process_cpu_seconds() - read, static_cast<double>(summary.unknowns), static_cast<double>(summary.steps),
           static_cast<double>(summary.events), static_cast<double>(summary.restarts)};
 }
 
 std::vector<double> done_by_hand(const Family& family, int size) {
-  const double begin = cpu_seconds();
+  const double begin = process_cpu_seconds();
   const hand::Run run = family.by_hand(size, 1e-6, {0, family.stop});
-  return {0, cpu_seconds() - begin, 0, static_cast<double>(run.steps), static_cast<double>(run.events), 0};
+  return {0, process_cpu_seconds() - begin, 0, static_cast<double>(run.steps), static_cast<double>(run.events), 0};
 }
 
 std::string whole(double value) { return fmt::format("{:.0f}", value); }

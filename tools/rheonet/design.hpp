@@ -22,8 +22,8 @@ class Design {
   /// Where each path was given: "--vary ", "--list values.csv: ".
   const std::vector<std::string>& origins() const { return origins_; }
   long runs() const { return rows_ * drawn_ * group_ * grid_; }
-  /// Runs of each point that is drawn, one after the other. 1; or, for Sobol indices of n ranges, n + 2: all values of a point A,
-  /// all of a second point B, then A with one value after the other replaced by that of B.
+  /// The number of runs that belong together. Without Sobol indices it is 1. With them, and n ranges, it is n + 2. Each group draws
+  /// two points, A and B. Its runs are A, B, and n copies of A, each with another of its values replaced by that of B.
   long group() const { return group_; }
   /// Every value of a path that is listed: of one that is drawn from an interval, a single one.
   std::vector<std::string> listed_values(std::size_t path) const;
@@ -37,7 +37,7 @@ class Design {
   std::variant<std::monostate, NoVariation> read_list(const std::string& file);
   std::variant<std::monostate, NoVariation> read_ranges(const SweepArguments& sweep);
   std::variant<std::monostate, NoVariation> read_correlations(const SweepArguments& sweep);
-  /// Of the value of a range in a member of a group.
+  /// The probability of a smaller value than the one that a range has in a member of a group.
   double probability(long draw, std::size_t member, std::size_t range) const;
 
   std::vector<std::string> paths_, origins_;

@@ -1,7 +1,6 @@
 #include "tools/rheonet/engine_script.hpp"
 
 #include <fmt/format.h>
-#include <time.h>
 
 #include <algorithm>
 #include <cctype>
@@ -11,14 +10,10 @@
 #include <utility>
 #include <vector>
 
+#include "core/result/cpu_time.hpp"
+
 namespace rheonet::tool {
 namespace {
-
-double thread_cpu_seconds() {
-  std::timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 /// A word as a shell reads it.
 std::string quoted(const std::string& word) {
@@ -58,7 +53,7 @@ std::string command_of(const Arguments& arguments) {
 /// "results/sweep.csv" -> "results/sweep.shard-"
 std::string shard_stem(const std::string& output) { return std::filesystem::path(output).replace_extension().string() + ".shard-"; }
 
-/// `number`: what stands for the number of the shard in a shell.
+/// The command that simulates one shard. `number` is the shell's word for the number of that shard.
 std::string simulate_command(const Arguments& arguments, const Division& division, const std::string& number) {
   return fmt::format("{} --shard {}/{} --resume --jobs 1 -q -o {}{}.csv", command_of(arguments), number, division.shards,
                      quoted(shard_stem(arguments.output)), number);

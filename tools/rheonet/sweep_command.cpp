@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <time.h>
 
 #include <algorithm>
 #include <chrono>
@@ -13,6 +12,7 @@
 #include <utility>
 
 #include "core/netlist/characters.hpp"
+#include "core/result/cpu_time.hpp"
 #include "tools/rheonet/commands.hpp"
 #include "tools/rheonet/design.hpp"
 #include "tools/rheonet/engine_script.hpp"
@@ -31,12 +31,6 @@
 
 namespace rheonet::tool {
 namespace {
-
-double process_cpu_seconds() {
-  std::timespec now{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 ExitStatus refuse(const NoVariation& wrong) {
   say("error: {}\n", printable(wrong.message));

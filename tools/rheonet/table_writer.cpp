@@ -27,13 +27,13 @@ const TableFormat* table_format(const std::string& path) {
 }
 
 TableWriter::TableWriter(const TableFormat& format, tables::Layout layout) : layout_(std::move(layout)) {
-  void* const library = ::dlopen(format.library, RTLD_NOW | RTLD_LOCAL);  // stays loaded
-  if (library == nullptr) {
+  void* const part = ::dlopen(format.part, RTLD_NOW | RTLD_LOCAL);  // stays loaded
+  if (part == nullptr) {
     const char* const why = ::dlerror();
     throw std::runtime_error(fmt::format("{} files need a part of rheonet that is missing: {}\n  build rheonet with the Debian package {}, or write .csv",
-                                         format.ending, why ? why : format.library, format.package));
+                                         format.ending, why ? why : format.part, format.package));
   }
-  open_ = reinterpret_cast<tables::OpenTableFile*>(::dlsym(library, "open_table_file"));
+  open_ = reinterpret_cast<tables::OpenTableFile*>(::dlsym(part, "open_table_file"));
   rows_.numbers.resize(layout_.columns.size());
   rows_.texts.resize(layout_.columns.size());
 }

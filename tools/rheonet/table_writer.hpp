@@ -9,10 +9,10 @@
 
 namespace rheonet::tool {
 
-/// A format of tables other than CSV, which a library of its own writes.
+/// A format of tables other than CSV, which a part of rheonet writes that is loaded when it is needed.
 struct TableFormat {
   const char* ending;   ///< of the file: ".nc"
-  const char* library;  ///< "librheonet_netcdf.so"
+  const char* part;     ///< its file: "librheonet_netcdf.so"
   const char* package;  ///< Debian's, with which rheonet has to be built
 };
 
@@ -22,7 +22,7 @@ const TableFormat* table_format(const std::string& path);
 /// Turns rows of CSV into a table of another format.
 class TableWriter {
  public:
-  /// Loads the library of the format. Throws std::runtime_error if it is missing.
+  /// Loads the part of rheonet for the format. Throws std::runtime_error if it is missing.
   TableWriter(const TableFormat& format, tables::Layout layout);
   ~TableWriter();
 

@@ -21,7 +21,7 @@ using nlohmann::json;
 
 constexpr const char* netlists = "/netlists";
 
-// The worker's script defines this function (tools/web/src/worker.js).
+// The worker's script defines this function (worker.js).
 EM_JS(void, tell_page, (const char* message), { Module.tell(UTF8ToString(message)); });
 
 void tell(const std::string& message) { tell_page(message.c_str()); }
