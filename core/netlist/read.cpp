@@ -6,6 +6,7 @@
 #include "core/netlist/analytic_solutions.hpp"
 #include "core/netlist/checks.hpp"
 #include "core/netlist/domains.hpp"
+#include "core/netlist/loose_nodes.hpp"
 #include "core/netlist/effects_table.hpp"
 #include "core/netlist/expand.hpp"
 #include "core/netlist/expect_table.hpp"
@@ -126,12 +127,19 @@ class Reader {
       diagnostics_.error(elements->spot, "the scene has no elements");
     const ActiveOverrides overrides = element_overrides(scope);
     Expander expander(context_, planner, scene_);
+    Scene wired;
     DomainOfElement domains;
     if (context_.several_domains) {
-      domains = find_domains(wiring(models, scope, environment, overrides), context_);
+      wired = wiring(models, scope, environment, overrides);
+      domains = find_domains(wired, context_);
       expander.use(domains);
     }
+    const std::size_t errors_before = diagnostics_.errors();
     expander.run(scope, environment, overrides);
+    // A mistyped node may be in the other domain than the node that is meant: all units there are wrong then.
+    if (context_.several_domains && diagnostics_.errors() > errors_before) {
+      for (const Diagnostic& loose : loose_nodes(wired)) diagnostics_.warning(loose.spot, loose.message, loose.hint);
+    }
     if (context_.several_domains) set_node_domains(scene_, context_.declarations);
     check_names(scope, diagnostics_);  // again: overrides may have added nodes
 

@@ -169,3 +169,18 @@ k = { type = "spring", between = ["a", "b"], stiffness = "half + B/T + F/v/T + J
   CHECK(refusal(rotation + "x = { type = \"m\", between = [\"p\", \"ground\"], v = \"2 m/s\" }\n" + run_it)
             .find("`v` of `m`: expected an angular velocity (rad/s), as its default is, found a velocity (m/s)") != std::string::npos);
 }
+
+TEST_CASE("domains: a mistyped node, which makes all units of its element wrong, is told") {
+  const std::string text = R"~(
+domain = "rotation"
+[elements]
+wheel = { type = "inertia", at = "wheel", inertia = 1 }
+pinion = { type = "rack", between = ["wheel", "ram"], radius = "4 cm" }
+ram = { type = "mass", at = "ram", mass = 12 }
+die = { type = "spring", between = ["rma", "ground"], stiffness = "4e5 N/m" }
+)~";
+  const std::string told = refusal(text + run_it);
+  CHECK(told.find("expected a torsional stiffness") != std::string::npos);
+  CHECK(told.find("nothing but `die` is at node `rma`") != std::string::npos);
+  CHECK(told.find("did you mean `ram`?") != std::string::npos);
+}
