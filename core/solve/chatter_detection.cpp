@@ -13,7 +13,7 @@
 
 namespace rheonet {
 
-ChatterDetection::ChatterDetection(std::size_t causes, double accuracy) : accuracy_(accuracy), count_(causes, 0), last_impact_(causes, std::numeric_limits<double>::quiet_NaN()) {}
+ChatterDetection::ChatterDetection(std::size_t causes, double accuracy) : accuracy_(accuracy), count_(causes, 0), last_event_(causes, std::numeric_limits<double>::quiet_NaN()) {}
 
 void ChatterDetection::reset() {
   begun_ = false;
@@ -85,28 +85,38 @@ std::string ChatterDetection::describe(const Network& network, double t) const {
       several ? "their" : "its");
 }
 
-bool ChatterDetection::squeezed(double t, int cause, double left) {
-  const double before = std::exchange(last_impact_[static_cast<std::size_t>(cause)], t);
-  if (std::isnan(before)) return false;
-  hops_.push_back({t - before, cause});
-  if (hops_.size() <= numerics::chatter_events) return false;
-  hops_.pop_front();
-  const auto sum = [](auto from, auto to) { return std::accumulate(from, to, 0.0, [](double length, const Hop& hop) { return length + hop.length; }); };
-  const auto middle = hops_.begin() + numerics::chatter_events / 2;
-  const double first = sum(hops_.begin(), middle), second = sum(middle, hops_.end());
-  // Hops of a ball that comes to rest become shorter by the same share each.
+bool ChatterDetection::endless(double t, const std::vector<int>& causes, double left) {
+  for (const int cause : causes) {
+    const double before = std::exchange(last_event_[static_cast<std::size_t>(cause)], t);
+    if (!std::isnan(before)) pauses_.push_back({t - before, cause});
+    if (pauses_.size() > numerics::chatter_events) pauses_.pop_front();
+  }
+  if (pauses_.size() < numerics::chatter_events) return false;
+  const auto sum = [](auto from, auto to) { return std::accumulate(from, to, 0.0, [](double length, const Pause& pause) { return length + pause.length; }); };
+  const auto middle = pauses_.begin() + numerics::chatter_events / 2;
+  const double first = sum(pauses_.begin(), middle), second = sum(middle, pauses_.end());
+  // Where motion ends in infinitely many events, as that of a bouncing ball, each comes sooner by the same share.
   return second >= first && left > (first + second) * numerics::endless_counts / numerics::endless_time;
 }
 
-std::string ChatterDetection::describe_squeeze(const Network& network) const {
+double ChatterDetection::endless_time() const {
+  return std::accumulate(pauses_.begin(), pauses_.end(), 0.0, [](double length, const Pause& pause) { return length + pause.length; });
+}
+
+std::string ChatterDetection::describe_endless(const Network& network, bool squeezed) const {
   std::vector<std::string> names;
-  for (const Hop& hop : hops_) {
-    const std::string& name = network.scene->elements[static_cast<std::size_t>(hop.cause)].name;
+  for (const Pause& pause : pauses_) {
+    const std::string& name = network.scene->elements[static_cast<std::size_t>(pause.cause)].name;
     if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
   }
-  return fmt::format("{} hit{} over and over, each {:.2g} s after the last time: what moves between rigid stops has no room left there; let the motion that closes the "
-                     "gap end before, or give a stop a finite `stiffness`",
-                     format_list(names, numerics::chatter_names), names.size() > 1 ? "" : "s", hops_.back().length);
+  const std::string who = format_list(names, numerics::chatter_names);
+  const char* const s = names.size() > 1 ? "" : "s";
+  if (squeezed) {
+    return fmt::format("{} hit{} over and over, each {:.2g} s after the last time: what moves between rigid stops has no room left there; let the motion that "
+                       "closes the gap end before, or give a stop a finite `stiffness`", who, s, pauses_.back().length);
+  }
+  return fmt::format("{} switch{} over and over without getting anywhere, each {:.2g} s after the last time; a dashpot beside {}, a mass at {} ends or a looser "
+                     "accuracy would end it", who, names.size() > 1 ? "" : "es", pauses_.back().length, names.size() > 1 ? "them" : "it", names.size() > 1 ? "their" : "its");
 }
 
 bool ChatterDetection::failing(double t, double within) {

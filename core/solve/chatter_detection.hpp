@@ -32,11 +32,13 @@ class ChatterDetection {
   /// A message that names the busiest elements and a remedy.
   std::string describe(const Network& network, double t) const;
 
-  /// Counts an impact of this cause at t, `left` [s] before the end of the run. True when the hops between impacts of the same causes do
-  /// not become shorter, and the run would never end.
-  bool squeezed(double t, int cause, double left);
-  /// A message that names the elements of these impacts and a remedy.
-  std::string describe_squeeze(const Network& network) const;
+  /// Counts the causes that fired at t, `left` [s] before the end of the run. True when the times from one event of a cause to its next do
+  /// not become shorter, and the run would never end, whatever the state does.
+  bool endless(double t, const std::vector<int>& causes, double left);
+  /// Sum of these times [s].
+  double endless_time() const;
+  /// A message that names the elements and a remedy. `squeezed`: they are rigid stops that hit.
+  std::string describe_endless(const Network& network, bool squeezed) const;
 
   /// Counts a failure of the integrator at t. True when the last failures all lie `within` this time [s]: the solution
   /// probably grows without bound there.
@@ -60,12 +62,12 @@ class ChatterDetection {
   Watched velocity_, deflection_;
   std::vector<int> count_;  ///< of each cause
   std::vector<int> fired_;  ///< causes with a count above 0
-  struct Hop {
+  struct Pause {
     double length;  ///< s
     int cause;
   };
-  std::deque<Hop> hops_;             ///< the last ones
-  std::vector<double> last_impact_;  ///< time of each cause's [s]; NaN: there was none
+  std::deque<Pause> pauses_;        ///< the last ones, between two events of one cause
+  std::vector<double> last_event_;  ///< of each cause: time of its last one [s]; NaN: there was none
   std::deque<double> failures_;  ///< times of the last failures [s]
   double reached_ = 0;           ///< time near which the last steps ended [s]
   int steps_there_ = 0;

@@ -318,8 +318,8 @@ class Run {
       // Hops that end in rest are no chattering, as long as time resolves them.
       const bool hops = impact_ == t && t - hopped_ > time_roundoff(t);
       if (impact_ == t) hopped_ = t;
-      if (impact_ == t && chatter_.squeezed(t, fired_.front(), settings_.stop - t)) {
-        throw SimulationError(network_.spot_of(fired_.front()), at_time(*network_.scene, t) + " " + chatter_.describe_squeeze(network_));
+      if (chatter_.endless(t, fired_, settings_.stop - t) && (impact_ == t || chatter_.endless_time() * rate_at(t) < numerics::endless_time)) {
+        throw SimulationError(network_.spot_of(fired_.front()), at_time(*network_.scene, t) + " " + chatter_.describe_endless(network_, impact_ == t));
       }
       if (!hops && gets_nowhere(t, fired_)) report_chatter(t);
       until = std::min(until, inputs_.next_break());  // the event may be a discontinuity of a delayed signal
@@ -343,10 +343,13 @@ class Run {
   /// Number of the cause of restarts that is no element.
   int solver() const { return static_cast<int>(network_.scene->elements.size()); }
 
+  /// Of the network or its inputs, the fastest [1/s].
+  double rate_at(double t) { return std::max(system_->consistency.fastest_rate(t, horizon(t), y_, yp_), inputs_.fastest()); }
+
   /// True if causes fire again and again without a change, in less time than the network or its inputs take to change.
   bool gets_nowhere(double t, const std::vector<int>& causes) {
     if (!chatter_.lost(t, causes, state_, tolerances_.largest_velocity())) return false;
-    const double rate = std::max(system_->consistency.fastest_rate(t, horizon(t), y_, yp_), inputs_.fastest());
+    const double rate = rate_at(t);
     if (rate > 0 ? (t - chatter_.since()) * rate < 1 : t - chatter_.since() < numerics::chatter_time * horizon(t)) return true;
     return chatter_.without_end(t, numerics::endless_time * settings_.stop);
   }

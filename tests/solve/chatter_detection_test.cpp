@@ -109,18 +109,40 @@ TEST_CASE("friction at presliding distances far below the way gone is followed t
   }
 }
 
-TEST_CASE("hops that become shorter come to an end; hops of no length that do not are squeezed") {
+TEST_CASE("events that come ever sooner come to an end; events without a pause that do not are endless") {
   const int many = 3 * static_cast<int>(numerics::chatter_events);
   ChatterDetection bounces(1, 1e-6), squeezed(1, 1e-6), rain(1000, 1e-6);
   double bounced = 0;
   bool ends = false;
   for (int k = 0; k < many; ++k) {
-    CHECK_FALSE(bounces.squeezed(bounced += std::pow(0.99, k), 0, 1e12));
-    ends = squeezed.squeezed(10 + 1e-13 * k, 0, 10) || ends;
+    CHECK_FALSE(bounces.endless(bounced += std::pow(0.99, k), {0}, 1e12));
+    ends = squeezed.endless(10 + 1e-13 * k, {0}, 10) || ends;
   }
   CHECK(ends);
+  CHECK(std::abs(squeezed.endless_time() - 1e-13 * numerics::chatter_events) < 1e-13);
   // A thousand balls that bounce at almost the same time.
-  for (int k = 0; k < many; ++k) CHECK_FALSE(rain.squeezed(k / 1000 + 1e-13 * (k % 1000), k % 1000, 1e3));
+  for (int k = 0; k < many; ++k) CHECK_FALSE(rain.endless(k / 1000 + 1e-13 * (k % 1000), {k % 1000}, 1e3));
+}
+
+TEST_CASE("round-off that makes a slider at its bound slip at each ulp of time ends the run") {
+  const std::string text = R"(domain = "rotation"
+[elements]
+free = { type = "inertia", at = "a", inertia = 0.1141 }
+held = { type = "inertia", at = "b", inertia = 0.467 }
+shaft = { type = "spring", between = ["a", "b"], stiffness = 135.5 }
+mount = { type = "spring", between = ["b", "ground"], stiffness = 1.437 }
+brake = { type = "slider", between = ["b", "ground"], coulomb = 1.403 }
+push = { type = "torque", at = "a", torque = { table = [[0.5, -4.57], [1, -4.57], [1, 0], [2.5, -4.57]] } }
+[simulate]
+stop = 4
+start_from = "steady"
+output = { points = 41 }
+)";
+  for (const double accuracy_of_run : {1e-3, 1e-6, 1e-9}) {
+    const Attempt run = attempt(scene_of(text, accuracy_of_run));
+    CAPTURE(run.refusal);
+    CHECK((run.refusal.empty() || run.refusal.find("over and over") != std::string::npos));
+  }
 }
 
 TEST_CASE("a ball between a rigid wall and one that comes nearer") {
