@@ -28,10 +28,12 @@ double OutputSampler::element_force(int element, const Dae::View& view) const {
   }
   switch (place.role) {
     case Role::deflection: {
-      // Round-off of the displacement times a stiffness of 1e12 N/m can lift the force above its bound at the event.
+      // Round-off of the displacement times a stiffness of 1e12 N/m can lift the force above its bound before the event is found.
+      // At rest there is no such event, and a force above its bound is shown as it is.
       std::size_t i = 0;
-      const double bound = network.batch_of(place.index, i).steady(i).bound;
-      return std::clamp(view.f[at(place.index)], -bound, bound) + force_beside(element);
+      const DeflectionBatch& batch = network.batch_of(place.index, i);
+      const double force = view.f[at(place.index)], bound = batch.steady(i).bound;
+      return (batch.direction(i) == 0 ? force : std::clamp(force, -bound, bound)) + force_beside(element);
     }
     case Role::rate:
       return view.rate_force[at(place.index)];

@@ -47,6 +47,16 @@ std::vector<char> at_once(System& system, double t, const std::vector<double>& y
   return result;
 }
 
+/// The laws in parallel with one that is no longer held at rest, all of which leave it.
+std::vector<int> release(Dae& dae, int branch, double flow, Fired& fired) {
+  std::vector<int> released = dae.release_parallel(branch, flow);
+  std::size_t i = 0;
+  std::vector<int>& list = dae.batch_of(branch, i).direction(i) == 0 ? fired.sudden.rests : fired.sudden.starts;
+  list.push_back(branch);
+  list.insert(list.end(), released.begin(), released.end());
+  return released;
+}
+
 }  // namespace
 
 Fired take_events(System& system, double t, const std::vector<double>& y, const std::vector<double>& yp) {
@@ -79,11 +89,8 @@ Fired take_events(System& system, double t, const std::vector<double>& y, const 
     if (!held && direction == 0) fired.sudden.starts.push_back(branch);
     if (!held && direction != 0 && batch.direction(i) == -direction) fired.sudden.turns.push_back(branch);
     if (held) {
-      const std::vector<int> released = dae.release_parallel(branch, flow[at(branch)]);
+      const std::vector<int> released = release(dae, branch, flow[at(branch)], fired);
       switched.insert(switched.end(), released.begin(), released.end());
-      std::vector<int>& list = batch.direction(i) == 0 ? fired.sudden.rests : fired.sudden.starts;
-      list.push_back(branch);
-      list.insert(list.end(), released.begin(), released.end());
     }
   }
   for (const auto& [branch, speed, slides] : turning_along(turned, switched, fired.sudden)) {
@@ -105,16 +112,20 @@ Fired take_events(System& system, double t, const std::vector<double>& y, const 
   return fired;
 }
 
-Fired take_contradictions(System& system, double t, const std::vector<double>& y, const std::vector<double>& yp) {
+Fired take_contradictions(System& system, const std::vector<NetworkEvents::Contradicted>& laws, double t, const std::vector<double>& y,
+                          const std::vector<double>& yp) {
   Fired fired;
-  const std::vector<NetworkEvents::Contradicted> laws = system.events.contradicted(t, y, yp);
-  if (laws.empty()) return fired;
   const std::vector<double> p = system.dae.view(t, y.data(), yp.data()).p;
-  for (const auto& [branch, velocity] : laws) {
+  for (const auto& [branch, velocity, which] : laws) {
     std::size_t i = 0;
     DeflectionBatch& batch = system.dae.batch_of(branch, i);
-    fired.sudden.starts.push_back(branch);
-    batch.set_direction(i, p[at(branch)], velocity, velocity < 0 ? -1 : 1);
+    if (which < 0) {
+      fired.sudden.starts.push_back(branch);
+      batch.set_direction(i, p[at(branch)], velocity, velocity < 0 ? -1 : 1);
+    } else if (batch.holds(i)) {  // not yet released by a law in parallel
+      batch.switch_memory(i, which, p[at(branch)], velocity);
+      release(system.dae, branch, velocity, fired);
+    }
     fired.elements.push_back(system.dae.network().deflections[at(branch)].element);
   }
   return fired;

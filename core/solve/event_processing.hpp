@@ -18,8 +18,9 @@ struct Fired {
 /// held at rest together, and laws that reverse at the same velocity.
 Fired take_events(System& system, double t, const std::vector<double>& y, const std::vector<double>& yp);
 
-/// Starts the laws that rest by their memory although the equations give them a velocity (NetworkEvents::contradicted), in the direction
-/// of that velocity. Mode selection solves a convex problem over a short time, whose round-off may hide the velocity.
-Fired take_contradictions(System& system, double t, const std::vector<double>& y, const std::vector<double>& yp);
+/// Starts laws that rest although the equations contradict that (NetworkEvents::contradicted), in the direction that these say. Mode selection
+/// solves a convex problem over a short time: round-off may hide a velocity there, and an error of a deflection may hold a law above its bound.
+Fired take_contradictions(System& system, const std::vector<NetworkEvents::Contradicted>& laws, double t, const std::vector<double>& y,
+                          const std::vector<double>& yp);
 
 }  // namespace rheonet

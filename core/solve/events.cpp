@@ -202,14 +202,20 @@ std::vector<NetworkEvents::Turned> NetworkEvents::turned(double t, const std::ve
 }
 
 std::vector<NetworkEvents::Contradicted> NetworkEvents::contradicted(double t, const std::vector<double>& y, const std::vector<double>& yp) {
-  const auto rests = [](const Watched& law) { return !law.batch->holds(law.i) && law.batch->direction(law.i) == 0; };
+  const auto rests = [](const Watched& law) { return law.batch->direction(law.i) == 0; };
   std::vector<Contradicted> laws;
   if (std::none_of(watched_.begin(), watched_.end(), rests)) return laws;
   const Dae::View& view = resolved(t, y.data(), yp.data());
   for (const Watched& law : watched_) {
-    const double velocity = view.flow[at(law.branch)];
-    if (!rests(law) || law.batch->fits(law.i, velocity)) continue;
-    if (std::abs(velocity) > numerics::resolved_dead_bands * tolerances_.dead_band(law.branch)) laws.push_back({law.branch, velocity});
+    if (!rests(law)) continue;
+    const double velocity = view.flow[at(law.branch)], far = numerics::resolved_dead_bands * tolerances_.dead_band(law.branch);
+    if (law.batch->holds(law.i)) {
+      const std::array<double, numerics::held_law_events> g = held_functions(law, view);
+      const auto first = std::min_element(g.begin(), g.end());
+      if (*first < -far) laws.push_back({law.branch, velocity, static_cast<int>(first - g.begin())});
+    } else if (!law.batch->fits(law.i, velocity) && std::abs(velocity) > far) {
+      laws.push_back({law.branch, velocity});
+    }
   }
   return laws;
 }
@@ -283,11 +289,15 @@ double NetworkEvents::looked_at(std::size_t i, const Dae::View& view) const {
 }
 
 double NetworkEvents::returning_function(const Returning& returning, const Dae::View& view) const {
-  const Watched& law = watched_[returning.law];
+  return held_functions(watched_[returning.law], view)[at(returning.which)] + law_margin_[returning.event];
+}
+
+std::array<double, numerics::held_law_events> NetworkEvents::held_functions(const Watched& law, const Dae::View& view) const {
   const auto [velocity, dead_band] = flow(law, view);
   std::array<double, numerics::held_law_events> g;
+  g.fill(std::numeric_limits<double>::infinity());
   law.batch->event_functions(law.i, view.p[at(law.branch)], view.dp[at(law.branch)], velocity, dead_band, g.data());
-  return g[at(returning.which)] + law_margin_[returning.event];
+  return g;
 }
 
 void NetworkEvents::find_returning() {

@@ -30,8 +30,9 @@ class NetworkEvents final : public EventFunctions {
   /// A law or slider that moves against the direction of its mode, at this speed [m/s].
   struct Turned { int branch; double speed; bool slides = false; };
   std::vector<Turned> turned(double t, const std::vector<double>& y, const std::vector<double>& yp);
-  /// A law whose memory says that it rests, while the equations of these modes give it a velocity far above its dead band [m/s].
-  struct Contradicted { int branch; double velocity; };
+  /// A law whose memory says that it rests, while the equations of these modes give it a velocity far above its dead band [m/s]; or that
+  /// is held at rest, while its event `which` is over by as much.
+  struct Contradicted { int branch; double velocity; int which = -1; };
   std::vector<Contradicted> contradicted(double t, const std::vector<double>& y, const std::vector<double>& yp);
   /// Slipping sliders that reverse as the sliders `stopped` stop, because a node of both loses the residual slip velocity.
   std::vector<int> stopped_along(double t, const std::vector<double>& y, const std::vector<double>& yp, const std::vector<int>& stopped);
@@ -78,6 +79,8 @@ class NetworkEvents final : public EventFunctions {
   struct Returning { std::size_t law; int which; std::size_t event; };
   void find_returning();
   double returning_function(const Returning& returning, const Dae::View& view) const;
+  /// The event functions of a law; infinite beyond the last.
+  std::array<double, numerics::held_law_events> held_functions(const Watched& law, const Dae::View& view) const;
   /// A slider that slips between known or massive nodes: its index among all sliders and in `sliders_`. `slope`: rate of its
   /// slip speed at the end of the last step [m/s^2]. `dips`: that speed had a minimum within the step.
   struct Slipping { int slider; std::size_t watched; double slope; bool dips; };

@@ -376,10 +376,10 @@ class Run {
   void begin_steps(double t, double until, double shrink) {
     for (int k = 0; k < numerics::mode_corrections; ++k) {
       restart(t, until, shrink);
-      const Fired wrong = take_contradictions(*system_, t, y_, yp_);
-      if (wrong.elements.empty()) return;
+      const std::vector<NetworkEvents::Contradicted> laws = system_->events.contradicted(t, y_, yp_);
+      if (laws.empty()) return;
       leave(t);
-      cross(t, false, wrong.sudden);
+      cross(t, false, take_contradictions(*system_, laws, t, y_, yp_).sudden);
     }
     restart(t, until, shrink);
   }

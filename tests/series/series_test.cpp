@@ -133,6 +133,13 @@ TEST_CASE("two elements in series have one force, certified or not") {
   }
 }
 
+// The error of a deflection that the accuracy allows is a velocity of 100 m/s by the balance of a weak dashpot. Friction beside it
+// was held at rest by forces far above its bound.
+TEST_CASE("friction beside a weak dashpot is not held above its bound") {
+  Tally tally;
+  judge(random_chain(476), tally);
+}
+
 TEST_CASE("random chains in series have one force, that of the closed form where there is one") {
   // How many: see README.md.
   const char* wanted = std::getenv("RHEONET_CHAINS");
