@@ -58,6 +58,9 @@ TEST_CASE("--set: values of elements, wherever they are") {
   };
   check("single.stiffness=50", "single: spring a-b 5 0", "single: spring a-b 50 0");
   check("elements.single.stiffness=50", "single: spring a-b 5 0", "single: spring a-b 50 0");
+  check("single.stiffness*=0.5", "single: spring a-b 5 0", "single: spring a-b 2.5 0");
+  check("g.c.damping*=2", "g.c: dashpot g.node1-b 3 1", "g.c: dashpot g.node1-b 6 1");
+  check("chain.1.stiffness*=3", "chain.1: spring chain.node1-b 2 0", "chain.1: spring chain.node1-b 6 0");
   check("single.stiffness=5 N/mm", "single: spring a-b 5 0", "single: spring a-b 5000 0");
   check("single.stiffness=\"2*B\"", "single: spring a-b 5 0", "single: spring a-b 6 0");
   check("single.rest=0.5", "single: spring a-b 5 0", "single: spring a-b 5 0.5");
