@@ -28,14 +28,15 @@ struct Recorded {
   EventTimes events;
 };
 
-/// The steps by which the value differs from that of the scene.
-constexpr std::array<int, 5> value_steps = {0, 1, 2, -1, -2};
-using Recordings = std::array<Recorded, value_steps.size()>;
-constexpr std::size_t base = 0, up = 1, up_twice = 2, down = 3, down_twice = 4;
+/// The runs: with the value of the scene, and with a value one or two steps away.
+enum Changed : std::size_t { base, up, up_twice, down, down_twice, changes };
+using Recordings = std::array<Recorded, changes>;
+
+int steps_of(std::size_t run) { return run == up ? 1 : run == up_twice ? 2 : run == down ? -1 : run == down_twice ? -2 : 0; }
 
 /// The event of one run that corresponds to that of another; the runs in which it does not happen have it at infinity.
 struct Shift {
-  std::array<double, value_steps.size()> time;
+  std::array<double, changes> time;
   double first, last;
 };
 
@@ -52,7 +53,7 @@ std::vector<Shift> shifts(const Recordings& recordings) {
   for (const auto& [event, longest] : all) {
     for (std::size_t k = 0; k < longest.size(); ++k) {
       Shift shift{};
-      for (std::size_t r = 0; r < value_steps.size(); ++r) {
+      for (std::size_t r = 0; r < changes; ++r) {
         const auto found = recordings[r].events.find(event);
         shift.time[r] = found != recordings[r].events.end() && k < found->second.size() ? found->second[k] : infinity;
       }
@@ -69,13 +70,13 @@ struct DifferenceQuotient {
   double value = 0, left = 0;
 };
 
-DifferenceQuotient central(const std::array<double, value_steps.size()>& r, double change) {
+DifferenceQuotient central(const std::array<double, changes>& r, double change) {
   const double near = (r[up] - r[down]) / (2 * change), far = (r[up_twice] - r[down_twice]) / (4 * change);
   return {(4 * near - far) / 3, (near - far) / 3};
 }
 
 /// From the runs on one side alone, to the second order.
-DifferenceQuotient one_sided(const std::array<double, value_steps.size()>& r, std::size_t once, std::size_t twice, double change) {
+DifferenceQuotient one_sided(const std::array<double, changes>& r, std::size_t once, std::size_t twice, double change) {
   const double near = (r[once] - r[base]) / change, far = (r[twice] - r[base]) / (2 * change);
   return {2 * near - far, near - far};
 }
@@ -85,13 +86,13 @@ class Sides {
  public:
   explicit Sides(std::vector<Shift> shifts) : shifts_(std::move(shifts)) {}
 
-  std::array<bool, value_steps.size()> at(double time) {
+  std::array<bool, changes> at(double time) {
     for (; next_ < shifts_.size() && shifts_[next_].first <= time; ++next_) around_.push_back(shifts_[next_]);
     std::erase_if(around_, [&](const Shift& shift) { return shift.last < time; });
-    std::array<bool, value_steps.size()> same;
+    std::array<bool, changes> same;
     same.fill(true);
     for (const Shift& shift : around_) {
-      for (std::size_t r = 0; r < value_steps.size(); ++r) same[r] = same[r] && (shift.time[r] <= time) == (shift.time[base] <= time);
+      for (std::size_t r = 0; r < changes; ++r) same[r] = same[r] && (shift.time[r] <= time) == (shift.time[base] <= time);
     }
     return same;
   }
@@ -114,7 +115,7 @@ class Comparison {
     double change = std::pow(error_, 1.0 / 5);
     std::optional<Sensitivity> best;
     for (int round = 0; round < numerics::sensitivity_rounds; ++round) {
-      for (std::size_t r = 1; r < value_steps.size(); ++r) record(r, 1 + value_steps[r] * change);
+      for (std::size_t r = 1; r < changes; ++r) record(r, 1 + steps_of(r) * change);
       std::optional<Compared> now = compare(change);
       if (!now) {
         change /= 10;
@@ -190,7 +191,7 @@ class Comparison {
     std::vector<double> left(records, 0), scale(records, 0);
     Sides sides(shifts(recordings_));
     for (std::size_t i = 0; i < rows; ++i) {
-      const std::array<bool, value_steps.size()> same = sides.at(own.times[i]);
+      const std::array<bool, changes> same = sides.at(own.times[i]);
       const bool above = same[up] && same[up_twice], below = same[down] && same[down_twice];
       if (!above && !below) {
         open_ = own.times[i];
@@ -198,8 +199,8 @@ class Comparison {
       }
       std::vector<double>& values = found.values.emplace_back(records);
       for (std::size_t k = 0; k < records; ++k) {
-        std::array<double, value_steps.size()> r;
-        for (std::size_t s = 0; s < value_steps.size(); ++s) r[s] = recordings_[s].trajectory.rows[i][k];
+        std::array<double, changes> r;
+        for (std::size_t s = 0; s < changes; ++s) r[s] = recordings_[s].trajectory.rows[i][k];
         const DifferenceQuotient d = above && below ? central(r, change) : above ? one_sided(r, up, up_twice, change) : one_sided(r, down, down_twice, -change);
         values[k] = d.value;
         scale[k] = std::max(scale[k], std::abs(r[base]));
@@ -210,8 +211,7 @@ class Comparison {
     for (std::size_t k = 0; k < records; ++k) {
       Sensitivity::Record& record = found.records[k];
       // Of a sine the second order leaves x^2/3!, and the fourth x^4/30.
-      constexpr double of_sine = 36.0 / 30;
-      const double noise = error_ * scale[k] / change, truncation = record.largest > 0 ? of_sine * left[k] * left[k] / record.largest : 0;
+      const double noise = error_ * scale[k] / change, truncation = record.largest > 0 ? 6 * 6 * left[k] * left[k] / (30 * record.largest) : 0;
       record.error = noise + truncation;
       if (record.largest <= noise) continue;
       result.truncation = std::max(result.truncation, truncation / record.largest);
