@@ -71,7 +71,7 @@ for (const [what, address, cut] of [['a static host', () => hosted.address, fals
     await done(page);
     await redrawn(page, () => number(page, 'parameters.Fc').fill('6').then(() => number(page, 'parameters.Fc').press('Enter')));
     await shows(page, 0.99, 'B spring.force', 6, 2e-2);
-    await page.getByRole('button', { name: '▶ Animate' }).click();
+    await page.getByRole('button', { name: '▶ Play' }).click();
     await page.waitForFunction(() => Number(document.querySelector('.animation input').value) > 10);
     await page.getByRole('button', { name: /Pause/ }).click();
 

@@ -1,6 +1,7 @@
 // The playground: a netlist in an editor, its schematic, its sliders and its plots, which follow each other.
 import './style.css';
 import './playground.css';
+import './motion.css';
 import { Animation } from './animation.js';
 import { explain } from './api.js';
 import { element, schematicOf } from './dom.js';
