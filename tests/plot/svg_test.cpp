@@ -156,6 +156,14 @@ TEST_CASE("a curve all of whose points are one is drawn as a mark, and others ar
   CHECK_FALSE(marks({{2.6, 0.013}, {2.6, 0.013}, {2.7, 0.013}}));
 }
 
+TEST_CASE("curves of one quantity with different numbers of a panel share none") {
+  Measured a = curve("a", seconds, position, {{0, 1}, {1, 2}}), b = curve("b", seconds, position, {{0, 1}, {1, 2}});
+  std::vector<std::string> notes;
+  CHECK(compose({a, b}, {}, notes).panels.size() == 1);
+  b.panel = 1;
+  CHECK(compose({a, b}, {}, notes).panels.size() == 2);
+}
+
 TEST_CASE("a curve has the style and the units that it is given") {
   Measured angle = curve("a", seconds, measure("angular velocity", "rad/s"), {{0, 1}, {0.5, 104.719755}});
   CHECK(contains(drawn({angle}), "angular velocity [rad/s]"));

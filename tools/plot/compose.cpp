@@ -59,7 +59,7 @@ std::vector<Group> grouped(const std::vector<const Measured*>& curves) {
   std::vector<Group> groups;
   for (const Measured* curve : curves) {
     auto group = std::find_if(groups.begin(), groups.end(),
-                              [&](const Group& g) { return compatible(g.front()->y.measure, curve->y.measure); });
+                              [&](const Group& g) { return g.front()->panel == curve->panel && compatible(g.front()->y.measure, curve->y.measure); });
     if (group == groups.end()) group = groups.insert(groups.end(), Group{});
     group->push_back(curve);
   }

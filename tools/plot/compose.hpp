@@ -17,6 +17,7 @@ struct Measured {
   Column x, y;
   Trace trace;
   std::optional<Style> style = {};
+  int panel = 0;  ///< curves of different numbers share no panel
   std::optional<Shown> x_unit = {}, y_unit = {};  ///< in which they are shown; if not given, as the look says
 };
 

@@ -1,5 +1,6 @@
 #include "tools/serve/requests.hpp"
 
+#include <cstdint>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -39,6 +40,9 @@ std::optional<json> curve_of(const json& curve) {
   const auto color = result["color"].get<std::string>();
   if (result["x"] == "" || result["y"] == "" || color.size() != 7 || color[0] != '#') return {};
   if (!consists_of(color.substr(1), "0123456789abcdef") || !consists_of(result["dashes"].get<std::string>(), "0123456789. ")) return {};
+  const json panel = curve.value("panel", json());
+  if (!panel.is_number_unsigned() || panel.get<std::uint64_t>() > most_curves) return {};
+  result["panel"] = panel;
   for (const char* key : {"x_unit", "y_unit"}) {
     const std::optional<json> unit = unit_of(curve, key);
     if (!unit) return {};

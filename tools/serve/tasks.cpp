@@ -124,7 +124,7 @@ void add_curves(const json& item, const Offers& offers, std::vector<plot::Measur
     if (x == columns.size() || y == columns.size()) continue;
     pairs.emplace_back(x, y);
     const plot::Style style{curve.at("color").get<std::string>(), curve.at("dashes").get<std::string>()};
-    curves.push_back({curve.at("name").get<std::string>(), columns[x], columns[y], {}, style, unit_of(curve.at("x_unit")), unit_of(curve.at("y_unit"))});
+    curves.push_back({curve.at("name").get<std::string>(), columns[x], columns[y], {}, style, curve.at("panel").get<int>(), unit_of(curve.at("x_unit")), unit_of(curve.at("y_unit"))});
   }
   tool::BothSides drawn([&](double time, const std::vector<double>& values) {
     const auto value = [&](std::size_t column) { return column == 0 ? time : values[column - 1]; };

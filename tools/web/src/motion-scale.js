@@ -3,7 +3,7 @@
 import { largestOf } from './units.js';
 
 const room = 40; // px that a node may move to either side
-const pressed = 32; // px by which an element may be pressed together
+const pressed = 20; // px by which an element may be pressed together: its texts still fit
 const least = 3; // px that half of the elements must be seen to move, for all to be to this scale
 const usual = 24; // px that the motion of such an element takes where not all can be
 const turnsPerSecond = 1; // that are drawn, at most, while the run takes `playing` seconds
