@@ -5,7 +5,8 @@ import { element } from './dom.js';
 import { inPrint } from './units.js';
 
 const unit = '(?:[kmµMnG]?(?:N|m|s|g|J|W|Pa|Hz|K)|rad|deg|rpm|min|dyn|cm|mm|cSt|mN|rev)';
-const units = new RegExp(`(?<=\\d[ \\u00a0]?|[[(])${unit}(?:\\^\\d)?(?:[*/]\\(?${unit}(?:\\^-?[\\d.]+)?\\)?)+(?:\\^-?[\\d.]+)?(?![\\w^(])|(?<=\\d[ \\u00a0]?)${unit}\\^\\d\\b`, 'g');
+const before = '(?<=\\d[ \\u00a0]?|[[(]|\\b(?:in|of|per) )';
+const units = new RegExp(`${before}${unit}(?:\\^\\d)?(?:[*/]\\(?${unit}(?:\\^-?[\\d.]+)?\\)?)+(?:\\^-?[\\d.]+)?(?![\\w^(])|(?<=\\d[ \\u00a0]?)${unit}(?:\\^\\d\\b|(?=[\\s.,;:)]|$))`, 'g');
 
 // A text in which units stand as netlists write them.
 export const withUnits = (text) => String(text).replace(units, (found) => inPrint(found));
@@ -136,12 +137,21 @@ function set(tex, source) {
 
 // A text as texts and elements: units and formulas in it are set.
 export function typeset(text) {
-  const plain = withUnits(text);
   const parts = [];
-  let done = 0;
-  for (const { from, to, tex } of pieces(plain)) {
-    parts.push(plain.slice(done, from), set(tex, plain.slice(from, to)));
-    done = to;
+  let last = 0;
+  const add = (piece) => {
+    let done = 0;
+    for (const { from, to, tex } of pieces(piece)) {
+      parts.push(piece.slice(done, from), set(tex, piece.slice(from, to)));
+      done = to;
+    }
+    parts.push(piece.slice(done));
+  };
+  for (const match of text.matchAll(units)) {
+    add(text.slice(last, match.index));
+    parts.push(inPrint(match[0]));
+    last = match.index + match[0].length;
   }
-  return [...parts, plain.slice(done)].filter((part) => part !== '');
+  add(text.slice(last));
+  return parts.filter((part) => part !== '');
 }

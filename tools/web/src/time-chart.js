@@ -79,6 +79,7 @@ export class TimeChart extends Chart {
         legend: { live: true, markers: { width: 3, fill: () => 'transparent', dash: (_, k) => (k > 0 ? borders[dashOf(curves[k - 1], k - 1)] : 'solid') } },
         hooks: {
           drawClear: [(plot) => this.drawEvents(plot)],
+          draw: [(plot) => this.tellRanges(plot)],
           // The legend has a time only while somebody points at one.
           setCursor: [(plot) => host.classList.toggle('pointed', typeof plot.cursor.idx === 'number')],
           setScale: [(plot, key) => key === 'x' && this.follow(plot)],
@@ -115,6 +116,12 @@ export class TimeChart extends Chart {
     this.plot.axes[1].label = this.sideLabel();
     this.plot.setData(data, whole);
     if (!whole) this.plot.redraw();
+  }
+
+  // What is seen: the times, and the values in SI.
+  tellRanges({ scales: { x, y } }) {
+    this.host.dataset.span = `${x.min} ${x.max}`;
+    this.host.dataset.range = `${y.min * this.shown.factor} ${y.max * this.shown.factor}`;
   }
 
   // Beside a low chart there is room for the unit alone.
