@@ -13,7 +13,7 @@ const kinds = [
   { id: 'flow', label: 'Force against velocity', x: 'velocity', y: 'force' },
   { id: 'phase', label: 'Phase plane', x: 'position', y: 'velocity' },
 ];
-const leastHeight = 105; // px of a chart that is to be read
+const leastHeight = 125; // px of a chart that is to be read
 const few = { curves: 4, panels: 3, all: 8 }; // that are shown before anyone chooses: of one quantity, panels, and curves in all
 
 const sentence = (text) => `${text[0]?.toUpperCase() ?? ''}${text.slice(1)}${/[.!?]$/.test(text) ? '' : '.'}`;

@@ -74,7 +74,7 @@ export class TimeChart extends Chart {
         series: [{ label: 'time', value: (plot, t) => (t === null ? '–' : `${read(plot, 'x', t, 6, this.timeUnit.factor)} ${this.timeUnit.name}`) }, ...series],
         scales: { x: { time: false }, y: { range: (_, min, max) => this.rangeOf('y', shownOf(min, max, 0.1)) } },
         axes: [axis(this.timeLabel(), { space: apart, size: labelled ? 36 : 28 }, () => this.timeUnit.factor),
-          axis(this.sideLabel(), { size: (plot, values) => group.room(this, sideways(plot, values)) })],
+          axis(this.sideLabel(), { space: 24, size: (plot, values) => group.room(this, sideways(plot, values)) })],
         cursor: { sync: { key: group.sync.key, setSeries: false }, drag: { x: true, y: false } },
         legend: { live: true, markers: { width: 3, fill: () => 'transparent', dash: (_, k) => (k > 0 ? borders[dashOf(curves[k - 1], k - 1)] : 'solid') } },
         hooks: {
