@@ -304,7 +304,7 @@ class Diagram {
     straighten(drawn.points);
     if (signs_[k] < 0 && detail_.names) {
       // Outside of the lines of a block's inputs, so that nobody takes it for that of the next one.
-      const double baseline = line.in > 0 ? in + 10 : in - 3.2;
+      const double tip = drawn.points.back().y, baseline = line.in > 0 ? tip + 10 : tip - 3.2;
       all.ink.labels.push_back({"−", {x - 10, baseline}, true, 11, Label::Kind::value});
     }
     all.ink.signals.push_back(std::move(drawn));
