@@ -102,7 +102,7 @@ test('embedded: the scene of a link, its schematic, sliders and plots, and a way
 
 test('the drawing of a scene of more than 60 elements moves too', async () => {
   const { page, close } = await open(`${hosted.address}#file=teaching/couette-lag.toml`);
-  const places = () => page.evaluate(() => [...document.querySelectorAll('.drawing [data-element]')].map(({ style }) => style.transform));
+  const places = () => page.evaluate(() => [...document.querySelectorAll('.drawing [data-element] path:first-of-type')].map((path) => path.getAttribute('d')));
   await page.locator('.animation > input').fill('900');
   const late = await places();
   await page.locator('.animation > input').fill('300');
