@@ -144,3 +144,11 @@ ${extra}`;
   assert.equal(await page.locator('.mistake').count(), 0);
   await close();
 });
+
+test('an address with ?present begins with all on one screen', async () => {
+  const { page, close } = await open(`${hosted.address}?present#file=teaching/bingham.toml`, { viewport: { width: 1024, height: 768 } });
+  assert.ok(await page.locator('.question').isVisible());
+  assert.equal(await page.locator('.editor-box').isVisible(), false);
+  assert.ok(await page.evaluate(() => document.documentElement.scrollHeight <= innerHeight));
+  await close();
+});
