@@ -1,8 +1,9 @@
 // Curves of one quantity against another.
 import uPlot from 'uplot';
-import { apart, axis, Chart, colour, labelOf, read, shownOf, sideways } from './chart.js';
+import { apart, axis, borders, Chart, colour, dashes, labelOf, read, shownOf, sideways } from './chart.js';
 import { element } from './dom.js';
-import { largestOf, number, shownIn, timeShown } from './units.js';
+import { listenToFingers } from './gestures.js';
+import { alongDecades, largestOf, number, shownIn, timeShown } from './units.js';
 
 // Where a logarithmic axis has its numbers. uPlot's own choice never ends on some ranges that do not begin at a power of ten.
 function decades(plot, axis, min, max) {
@@ -28,9 +29,8 @@ export class LoopChart extends Chart {
     this.sides = [x, y];
     this.curves = curves;
     this.findUnits();
-    const range = (_, min, max) => (log ? [min / 2, max * 2] : shownOf(min, max, 0.08));
-    const scale = { time: false, range, distr: log ? 3 : 1 };
-    const logValues = log ? { splits: decades, filter: (_, splits) => splits, values: (_, splits) => splits.map((v) => number(v, 2)) } : {};
+    const scale = (key) => ({ time: false, distr: log ? 3 : 1, range: (_, min, max) => this.rangeOf(key, log ? [min / 2, max * 2] : shownOf(min, max, 0.08)) });
+    const logValues = log ? { splits: decades, filter: (_, splits) => splits, values: (_, splits) => alongDecades(splits) } : {};
     this.plot = new uPlot(
       {
         mode: 2,
@@ -48,7 +48,7 @@ export class LoopChart extends Chart {
             paths: (plot, s) => this.path(plot, s),
           })),
         ],
-        scales: { x: scale, y: { ...scale } },
+        scales: { x: scale('x'), y: scale('y') },
         axes: [axis(labelOf(x.quantity, this.units[0]), { space: apart, ...logValues }), axis(labelOf(y.quantity, this.units[1]), { size: sideways, ...logValues })],
         cursor: { drag: { x: true, y: true, uni: 20 }, points: { show: false } },
         legend: { show: false },
@@ -66,13 +66,14 @@ export class LoopChart extends Chart {
       'div',
       { class: 'loop-legend' },
       curves.map((curve, k) => {
-        const swatch = element('span', { class: 'swatch' });
-        swatch.style.background = `var(--curve-${((curve.style ?? k) % 7) + 1})`;
+        const swatch = element('span', { class: 'swatch line' });
+        swatch.style.borderTop = `3px ${borders[(curve.dash ?? 0) % borders.length]} var(--curve-${((curve.style ?? k) % 7) + 1})`;
         return element('span', { class: 'key' }, swatch, curve.name);
       }),
       (this.readout = element('output', { class: 'readout' })),
     );
     host.append(this.legend);
+    listenToFingers(this);
     this.plot.over.addEventListener('mousemove', () => this.hover());
     this.plot.over.addEventListener('mouseleave', () => this.hide());
   }
@@ -99,6 +100,7 @@ export class LoopChart extends Chart {
     ctx.strokeStyle = ctx.fillStyle = colour(this.curves[s - 1].style ?? s - 1);
     ctx.lineWidth = 1.6 * devicePixelRatio;
     ctx.lineJoin = 'round';
+    ctx.setLineDash(dashes[(this.curves[s - 1].dash ?? 0) % dashes.length].map((length) => length * devicePixelRatio));
     ctx.beginPath();
     for (let i = 0; i < xs.length; ++i) ctx.lineTo(plot.valToPos(xs[i], 'x', true), plot.valToPos(ys[i], 'y', true));
     ctx.stroke();
@@ -152,13 +154,35 @@ export class LoopChart extends Chart {
 
   update(curves) {
     this.curves = curves;
-    this.findUnits();
+    this.moves();
+    if (!this.keepsUnits) this.findUnits();
+    this.label();
+    this.plot.setData(this.data());
+  }
+
+  label() {
     this.sides.forEach((side, k) => (this.plot.axes[k].label = labelOf(side.quantity, this.units[k])));
+  }
+
+  settle() {
+    this.findUnits();
+    this.label();
     this.plot.setData(this.data());
   }
 
   zoom(min, max) {
     this.plot.setScale('x', { min, max });
+  }
+
+  get isZoomed() {
+    const { min, max } = this.plot.scales.x;
+    const [low, high] = this.ranges.x ?? [min, max];
+    return min > low || max < high;
+  }
+
+  lookAt({ x, y }) {
+    this.plot.setScale('x', { min: x[0], max: x[1] });
+    this.plot.setScale('y', { min: y[0], max: y[1] });
   }
 
   reset() {

@@ -1,11 +1,14 @@
 // The playground: a netlist in an editor, its schematic, its sliders and its plots, which follow each other.
 import './style.css';
 import './playground.css';
+import './motion.css';
+import './presentation.css';
 import { Animation } from './animation.js';
 import { explain } from './api.js';
 import { element, schematicOf } from './dom.js';
 import { Editor } from './editor.js';
 import { choices } from './choices.js';
+import { DrawingView } from './drawing-view.js';
 import { Files } from './files.js';
 import { firstScene } from './first-scene.js';
 import { Folds } from './folds.js';
@@ -13,11 +16,13 @@ import { helpDialog } from './help.js';
 import { listenToKeys } from './keys.js';
 import { menu } from './menu.js';
 import { PlotPanel } from './plot-panel.js';
+import { Presentation } from './presentation.js';
 import { Runner } from './runner.js';
 import { SceneData } from './scene-data.js';
 import { lessonOf } from './sections.js';
 import { Sliders } from './sliders.js';
 import { followSystem, rememberTheme, switchTheme } from './theme.js';
+import { Traces } from './traces.js';
 import { runTime } from './units.js';
 
 const isEmbedded = new URLSearchParams(location.search).has('embed');
@@ -34,14 +39,27 @@ class Playground {
       onmove: (changes) => this.sliders?.move(changes),
     });
     this.sliders = new Sliders(this.parts.sliders, this.editor);
-    this.plots = new PlotPanel(this.parts.plots, { onchange: () => this.showSections() });
+    this.traces = new Traces(() => this.showPlots());
+    this.plots = new PlotPanel(this.parts.plots, { onchange: () => this.showSections(), fits: true, traces: this.traces });
     this.folds = new Folds(this.parts.sections, () => this.explain());
     this.animation = new Animation(this.parts.animation, { onframe: (time) => this.plots.mark(time) });
+    const { presentation } = this;
     listenToKeys({
       save: () => this.files.save(),
-      play: () => this.animation.toggle(),
-      gallery: () => this.files.gallery.open(),
+      acts: {
+        ' ': () => this.animation.toggle(),
+        g: () => this.files.gallery.open(),
+        p: () => presentation.toggle(),
+        f: () => presentation.toggleScreen(),
+        e: () => presentation.toggleNetlist(),
+        r: () => this.sliders.reset(),
+        t: () => this.traces.freeze(),
+        m: () => this.plots.measure.toggle(),
+        h: () => this.plots.hold(!this.plots.isHeld),
+        escape: () => presentation.isOn && presentation.toggle(false),
+      },
     });
+    if (new URLSearchParams(location.search).has('present')) presentation.toggle(true);
   }
 
   variant(label, text, file) {
@@ -60,6 +78,7 @@ class Playground {
     const button = (text, act, extra = {}) => element('button', { type: 'button', onclick: act, ...extra }, text);
     this.parts = {};
     this.title = element('h1', {}, 'rheonet');
+    this.presentation = new Presentation({ onchange: (on) => this.present(on) });
     this.compareButton = button('Compare', () => this.compare(), { 'aria-pressed': 'false' });
     this.status = element('p', { class: 'status', role: 'status' });
     this.themeButton = button('◐', switchTheme, { 'aria-label': 'Light or dark', title: 'Light or dark' });
@@ -68,7 +87,7 @@ class Playground {
       menu('Save', () => this.files.saves()),
       menu('Export', () => this.files.exports()),
       button('Link', () => this.files.copyLink()),
-      this.compareButton, this.themeButton,
+      this.compareButton, ...this.presentation.buttons, this.themeButton,
       button('?', () => this.help.showModal(), { 'aria-label': 'Help' })));
     this.choice = element('div', { class: 'variants', role: 'radiogroup', 'aria-label': 'Variant that is edited', hidden: true });
     const box = (name, heading, ...content) => element('section', { class: `box ${name}-box`, 'aria-label': heading }, element('h2', { class: 'box-title' }, heading), ...content);
@@ -77,16 +96,26 @@ class Playground {
       // Before the stage: that is the order of the Tab key.
       box('sliders', 'Sliders', part('sliders')),
       element('div', { class: 'stage' },
-        (this.lesson = box('lesson', 'Question')),
-        box('schematic', 'Schematic', part('drawing'), part('animation')),
-        box('plots', 'Plots', this.status, part('plots')),
+        element('div', { class: 'view' },
+          (this.lesson = box('lesson', 'Question')),
+          box('schematic', 'Schematic', part('drawing'), part('animation')),
+          box('plots', 'Plots', this.status, part('plots'))),
         box('more', 'More', part('sections')))));
+    this.view = new DrawingView(this.parts.drawing);
+    this.parts.drawing.before(this.view.controls);
+    new ResizeObserver(() => document.body.style.setProperty('--bar', `${bar.offsetHeight}px`)).observe(bar);
     this.lesson.hidden = true;
     this.toast = element('p', { class: 'toast', hidden: true, 'aria-hidden': 'true' });
     host.append(this.toast);
     if (isEmbedded) this.embed(bar);
     this.help = helpDialog();
     document.body.append(this.help);
+  }
+
+  present(on) {
+    this.view.most = on ? 2.5 : 1;
+    this.view.place();
+    this.plots.fit();
   }
 
   // Part of a page of somebody else: of the tools only a way to the whole playground remains.
@@ -102,6 +131,7 @@ class Playground {
   // Puts other scenes, one or two to compare, in the place of those that are there.
   begin({ scenes, active = scenes.length - 1, plots = {} }, notice = '') {
     this.endComparison();
+    this.traces.clear();
     this.plots.state = plots ?? {};
     if (notice) this.notify(notice);
     scenes.slice(1).forEach(({ text, file }) => this.variants.push(this.variant('B', text, file)));
@@ -128,6 +158,7 @@ class Playground {
   clear() {
     this.sliders.clear();
     this.parts.drawing.replaceChildren();
+    this.view.attach();
     this.parts.animation.hidden = true;
     this.drawn = null;
     this.showTitle('');
@@ -136,7 +167,8 @@ class Playground {
 
   wasRead(variant, data, read) {
     if (variant !== this.current || read !== variant.text) return;
-    this.sliders.show(data.scene.sliders, variant.fresh);
+    if (variant.fresh) variant.first = data.scene.sliders.map((knob) => ({ ...knob }));
+    this.sliders.show(data.scene.sliders, variant.fresh, variant.first);
     if (variant.fresh) this.showSchematic(data.scene);
     variant.fresh = false;
   }
@@ -229,6 +261,7 @@ class Playground {
     if (scene.schematic === this.drawn) return;
     this.drawn = scene.schematic;
     this.parts.drawing.replaceChildren(schematicOf(scene));
+    this.view.attach();
   }
 
   showLesson(scene) {
@@ -242,7 +275,9 @@ class Playground {
 
   showPlots() {
     const several = this.variants.length > 1;
-    this.plots.show(this.variants.map(({ label, data }) => ({ label: several ? label : '', data })));
+    this.traces.offer(this.current);
+    const now = this.variants.map(({ label, data, text, shown, file }) => ({ label: several ? label : this.traces.all.length ? 'now' : '', data, text: shown ?? text, file }));
+    this.plots.show([...now, ...this.traces.all]);
   }
 
   // Until all that is seen has come of the texts as they are.
@@ -307,7 +342,7 @@ class Playground {
     this.editor.load(text);
     this.clear();
     if (data.scene) {
-      if (shown === text) this.sliders.show(data.scene.sliders, true);
+      if (shown === text) this.sliders.show(data.scene.sliders, true, this.current.first);
       this.showScene(data);
       this.showMistakes(data, true);
     }

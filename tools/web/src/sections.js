@@ -1,20 +1,20 @@
 // The parts that a page is made of, each from the data of a scene.
 import katex from 'katex';
-import 'katex/dist/katex.min.css';
 import { element, table } from './dom.js';
+import { typeset, withUnits } from './formulas.js';
 import { LoopChart } from './loop-chart.js';
 import { TimeChart, TimeGroup } from './time-chart.js';
 import { grouped, number, runTime, spaced, timeShown, withUnit } from './units.js';
 
-// A text with what stands between backticks set as code.
-export const inWords = (text) => text.split(/(`[^`]*`)/).map((part, k) => (k % 2 ? element('code', {}, part.slice(1, -1)) : part));
+// A text with its units and formulas as in print, and what stands between backticks set as code.
+export const inWords = (text) => text.split(/(`[^`]*`)/).flatMap((part, k) => (k % 2 ? [element('code', {}, part.slice(1, -1))] : typeset(part)));
 
 // What a scene is to teach; `folded`: what can be seen and why is first to be thought about.
 export function lessonOf({ demo }, folded) {
   if (!demo) return null;
   const answer = (name, text) => (folded ? element('details', {}, element('summary', {}, name), element('p', {}, inWords(text))) : element('p', {}, element('b', {}, `${name} `), inWords(text)));
   return element('div', { class: 'lesson' },
-    element('p', { class: 'question' }, demo.question),
+    element('p', { class: 'question' }, inWords(demo.question)),
     element('p', {}, element('b', {}, 'Change '), inWords(demo.change)),
     answer('See', demo.see),
     answer('Why', demo.why));
@@ -40,7 +40,7 @@ export function equationsOf(scene) {
         element('h4', {}, element('code', {}, type), ` – ${summary}`),
         equation,
         symbols.length ? element('p', { class: 'symbols' }, symbols.map(([symbol, name], k) => [k ? ', ' : '', element('i', {}, symbol), ` ${name.replaceAll('_', ' ')}`])) : null,
-        notes ? element('p', { class: 'notes' }, notes) : null,
+        notes ? element('p', { class: 'notes' }, inWords(notes)) : null,
         source ? element('p', { class: 'source' }, source) : null),
     );
   }
@@ -48,7 +48,7 @@ export function equationsOf(scene) {
 }
 
 export function elementsOf(scene) {
-  const rows = scene.elements.map(({ name, type, place, values }) => [element('code', {}, name), type, place, values.replace(/ {2,}/g, ', ')]);
+  const rows = scene.elements.map(({ name, type, place, values }) => [element('code', {}, name), type, place, withUnits(values.replace(/ {2,}/g, ', '))]);
   const all = table(['element', 'type', 'between', 'values (SI)'], rows, 'Elements');
   if (scene.element_count > scene.elements.length)
     all.append(element('p', { class: 'note' }, `and ${grouped(scene.element_count - scene.elements.length)} more`));
@@ -142,7 +142,7 @@ export function statisticsOf(data) {
 export function claimsOf(data) {
   const claims = data.done?.claims ?? [];
   if (!claims.length) return null;
-  return table(['claim', 'claimed', 'found', 'verdict'], claims.map(({ name, claimed, found, holds }) => [name, claimed, found,
+  return table(['claim', 'claimed', 'found', 'verdict'], claims.map(({ name, claimed, found, holds }) => [withUnits(name), withUnits(claimed), withUnits(found),
     element('span', { class: holds ? 'holds' : 'fails' }, holds ? 'holds' : 'fails')]), 'Claims');
 }
 

@@ -1,11 +1,9 @@
 // Curves over time, in panels that share its axis.
 import uPlot from 'uplot';
-import { apart, axis, Chart, colour, labelOf, read, shownOf, sideways } from './chart.js';
+import { apart, axis, borders, Chart, colour, dashes, labelOf, read, shownOf, sideways } from './chart.js';
 import { breakable, styled } from './dom.js';
+import { listenToFingers } from './gestures.js';
 import { largestOf, shownIn, timeShown } from './units.js';
-
-const dashes = [[], [7, 3], [2, 2], [10, 3, 2, 3]];
-const borders = ['solid', 'dashed', 'dotted', 'dashed']; // the same, of a legend
 
 // Curves of several runs over the times of all. At a jump a run has two rows of one time.
 function joined(runs) {
@@ -54,8 +52,8 @@ export class TimeChart extends Chart {
     this.quantity = quantity;
     this.unit = unit;
     this.as = as; // the unit that somebody wants
-    this.shown = as ?? shownIn(unit, largestOf(curves.map((curve) => curve.values)));
     this.curves = curves;
+    this.findUnit();
     const dashOf = (curve, k) => (curve.dash ?? Math.floor(k / 7)) % dashes.length;
     const series = curves.map((curve, k) => ({
       label: curve.name,
@@ -74,13 +72,14 @@ export class TimeChart extends Chart {
         width: Math.max(this.width(), 240),
         height,
         series: [{ label: 'time', value: (plot, t) => (t === null ? '–' : `${read(plot, 'x', t, 6, this.timeUnit.factor)} ${this.timeUnit.name}`) }, ...series],
-        scales: { x: { time: false }, y: { range: (_, min, max) => shownOf(min, max, 0.1) } },
+        scales: { x: { time: false }, y: { range: (_, min, max) => this.rangeOf('y', shownOf(min, max, 0.1)) } },
         axes: [axis(this.timeLabel(), { space: apart, size: labelled ? 36 : 28 }, () => this.timeUnit.factor),
-          axis(labelOf(quantity, this.shown), { size: (plot, values) => group.room(this, sideways(plot, values)) })],
+          axis(this.sideLabel(), { space: 24, size: (plot, values) => group.room(this, sideways(plot, values)) })],
         cursor: { sync: { key: group.sync.key, setSeries: false }, drag: { x: true, y: false } },
         legend: { live: true, markers: { width: 3, fill: () => 'transparent', dash: (_, k) => (k > 0 ? borders[dashOf(curves[k - 1], k - 1)] : 'solid') } },
         hooks: {
           drawClear: [(plot) => this.drawEvents(plot)],
+          draw: [(plot) => this.tellRanges(plot)],
           // The legend has a time only while somebody points at one.
           setCursor: [(plot) => host.classList.toggle('pointed', typeof plot.cursor.idx === 'number')],
           setScale: [(plot, key) => key === 'x' && this.follow(plot)],
@@ -89,6 +88,7 @@ export class TimeChart extends Chart {
       data,
       host,
     );
+    listenToFingers(this);
     host.querySelectorAll('.u-label').forEach((label) => label.replaceChildren(...breakable(label.textContent)));
   }
 
@@ -107,14 +107,46 @@ export class TimeChart extends Chart {
   // New values in place of the old ones; the zoom stays.
   update(curves, events = []) {
     const whole = this.full();
+    this.moves();
     this.curves = curves;
     this.events = events;
-    this.shown = this.as ?? shownIn(this.unit, largestOf(curves.map((curve) => curve.values)));
+    if (!this.keepsUnits) this.findUnit();
     const data = this.data();
     this.plot.axes[0].label = this.timeLabel();
-    this.plot.axes[1].label = labelOf(this.quantity, this.shown);
+    this.plot.axes[1].label = this.sideLabel();
     this.plot.setData(data, whole);
     if (!whole) this.plot.redraw();
+  }
+
+  // What is seen: the times, and the values in SI.
+  tellRanges({ scales: { x, y } }) {
+    this.host.dataset.span = `${x.min} ${x.max}`;
+    this.host.dataset.range = `${y.min * this.shown.factor} ${y.max * this.shown.factor}`;
+  }
+
+  // Beside a low chart there is room for the unit alone.
+  sideLabel() {
+    const whole = labelOf(this.quantity, this.shown);
+    return 6.5 * whole.length < this.height - 36 || !this.shown.name ? whole : `[${this.shown.name}]`;
+  }
+
+  setHeight(height) {
+    const isOther = height !== this.height;
+    super.setHeight(height);
+    if (isOther) this.plot.axes[1].label = this.sideLabel();
+    if (isOther) this.plot.redraw(false, true);
+  }
+
+  findUnit() {
+    this.shown = this.as ?? shownIn(this.unit, largestOf(this.curves.map((curve) => curve.values)));
+  }
+
+  settle() {
+    this.findUnit();
+    const { min, max } = this.plot.scales.x;
+    this.plot.axes[1].label = this.sideLabel();
+    this.plot.setData(this.data(), false);
+    this.plot.setScale('x', { min, max });
   }
 
   // All of the time is shown that there was when it was last drawn.
@@ -133,6 +165,18 @@ export class TimeChart extends Chart {
 
   zoom(min, max) {
     this.group.zoom(min, max);
+  }
+
+  get isZoomed() {
+    return !this.full();
+  }
+
+  // As far as there is something to see.
+  lookAt({ x: [min, max] }) {
+    const [start, stop] = this.span;
+    const span = Math.min(max - min, stop - start);
+    const low = Math.min(Math.max(min, start), stop - span);
+    this.zoom(low, low + span);
   }
 
   reset() {
