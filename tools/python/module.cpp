@@ -118,6 +118,8 @@ void add_studies(py::module_& module) {
       .def_property_readonly("doubt", &Precision::doubt)
       .def_property_readonly("text", &Precision::text);
 
+  module.def("drawn_points", &drawn_points, py::arg("vary"), py::arg("kind"), py::arg("count"), py::arg("seed"), py::arg("correlate"),
+             py::call_guard<py::gil_scoped_release>());
   module.def("report", &report, py::arg("readings"), py::arg("accuracy"), py::arg("title"), py::arg("certify"), py::arg("precision"), py::arg("progress"));
 }
 

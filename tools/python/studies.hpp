@@ -3,6 +3,7 @@
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <utility>
@@ -36,6 +37,11 @@ class Comparison {
  private:
   tool::Compared compared_;
 };
+
+/// The points of `rheonet sweep` with --random, --latin or --sobol: of each run the values, as text. `vary` and `correlate` are as after these
+/// options of the command. Throws std::invalid_argument for what the command refuses.
+std::vector<std::vector<std::string>> drawn_points(const std::vector<std::string>& vary, const std::string& kind, long count, std::uint64_t seed,
+                                                   const std::vector<std::string>& correlate);
 
 /// What each physical effect contributes.
 class Effects {

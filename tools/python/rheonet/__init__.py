@@ -13,6 +13,7 @@ Every value is in SI units, as in the CSV files of the command `rheonet run`.
 import functools
 import itertools
 import json
+import numbers
 import os
 import pathlib
 import warnings
@@ -131,27 +132,17 @@ class Scene:
         import xarray
 
         paths = list(changes)
-        values = [list(changes[path]) for path in paths]
+        values = [_values(path, changes[path]) for path in paths]
         shape = [len(axis) for axis in values]
-        measures = [measure] if isinstance(measure, str) else list(measure or ())
+        measures = _texts(measure)
         combinations = list(itertools.product(*values))
         if not combinations:
             raise ValueError("a sweep needs at least one value of each parameter")
 
-        if client is None:
-            run = functools.partial(_outcome, self._source, self._changes, paths, measures, accuracy)
-            outcomes = _parallel.in_threads(run, combinations, jobs)
-        else:
-            source = _parallel.everywhere(*self._source.arguments)
-            run = functools.partial(_portable_outcome, source, self._changes, paths, measures, accuracy)
-            outcomes = _parallel.on_dask(client, run, combinations)
+        outcomes = self._outcomes(paths, combinations, measures, accuracy, jobs, client)
         coordinates = {path: coordinate(path, axis) for path, axis in zip(paths, values)}
         if measures:
-            variables = {
-                name: (paths, np.reshape([figures[k]["found"] for figures in outcomes], shape), {"units": outcomes[0][k]["unit"]})
-                for k, name in enumerate(measures)
-            }
-            return xarray.Dataset(variables, coordinates, {"title": self.title})
+            return xarray.Dataset(_measured(outcomes, measures, paths, shape), coordinates, {"title": self.title})
         time = outcomes[0].time
         for combination, result in zip(combinations, outcomes):
             if not np.array_equal(result.time, time):
@@ -165,6 +156,46 @@ class Scene:
             for name, unit in outcomes[0].units.items()
         }
         return xarray.Dataset(variables, coordinates, {"title": self.title})
+
+    def sample(self, values, count, measure, kind="random", seed=1, correlations={}, accuracy=None, jobs=None, client=None):
+        """Simulates the scene at points that are drawn from distributions: a Monte Carlo.
+
+        values: the distribution of each value, by path, as after `--vary` of the command: {"k1.stiffness": "normal(1 N/mm, 5 %)",
+            "s1.coulomb": "lognormal(1 N, 0.1)", "m1.mass": "1 kg:2 kg"} (uniform; "1 kg:2 kg:log" in the logarithm).
+        count: number of points.
+        measure: figures of each run, as for sweep().
+        kind: "random" for independent points, "latin" for a Latin hypercube, "sobol" for Sobol's sequence.
+        seed: the same seed draws the same points, those of the command.
+        correlations: coefficients for pairs of normal scores: {("k1.stiffness", "s1.coulomb"): 0.5}.
+        accuracy, jobs, client: as for sweep().
+
+        Returns an xarray.Dataset over the dimension "run", with the values as coordinates. Raises ValueError for a distribution that cannot be
+        read, and otherwise what sweep() raises.
+        """
+        import xarray
+
+        if kind not in ("random", "latin", "sobol"):
+            raise ValueError(f"kind must be 'random', 'latin' or 'sobol', but is {kind!r}")
+        paths = list(values)
+        measures = _texts(measure)
+        if not measures or not paths:
+            raise ValueError("a Monte Carlo needs a distribution of at least one value, and at least one measure")
+        vary = [f"{path}={distribution}" for path, distribution in values.items()]
+        correlate = [f"{one},{other}={coefficient}" for (one, other), coefficient in correlations.items()]
+        points = _rheonet.drawn_points(vary, kind, _count("count", count), seed, correlate)
+        outcomes = self._outcomes(paths, points, measures, accuracy, jobs, client)
+        coordinates = {path: coordinate("run", [point[k] for point in points]) for k, path in enumerate(paths)}
+        coordinates["run"] = np.arange(1, len(points) + 1)
+        return xarray.Dataset(_measured(outcomes, measures, ["run"], [len(points)]), coordinates, {"title": self.title})
+
+    def _outcomes(self, paths, points, measures, accuracy, jobs, client):
+        """The outcome of a run at each point."""
+        if client is None:
+            run = functools.partial(_outcome, self._source, self._changes, paths, measures, accuracy)
+            return _parallel.in_threads(run, points, jobs)
+        source = _parallel.everywhere(*self._source.arguments)
+        run = functools.partial(_portable_outcome, source, self._changes, paths, measures, accuracy)
+        return _parallel.on_dask(client, run, points)
 
     def explain(self):
         """What will be simulated, and why: what `rheonet explain --json` prints, as a dictionary. Raises SimulationError, without a
@@ -184,6 +215,7 @@ class Scene:
         """
         if not others:
             raise TypeError("compare() takes at least one other scene")
+        _check_scenes(others)
         scenes = [self, *others]
         pairings = [[own, *([other] * len(others) if isinstance(other, str) else other)] for own, other in pairs.items()]
         for pairing in pairings:
@@ -215,6 +247,7 @@ class Scene:
 
         Returns Precision. Raises SimulationError if the reference run fails, ValueError for models that cannot be compared.
         """
+        _check_scenes(models.values())
         for accuracy in accuracies:
             _check_accuracy(accuracy)
         for record in pairs:
@@ -251,6 +284,7 @@ class Scene:
         cannot be simulated. A run that ends early is shown up to there: see Report.failures.
         """
         _check_accuracy(accuracy)
+        _check_scenes(others)
         scenes = [self, *others]
         readings = [scene._read_again(plotted=True, measures=None) for scene in scenes]
         heading = title if title is not None else self.title or self._source.file
@@ -293,13 +327,30 @@ def _run(scene, accuracy=None, certify=False, threads=1, progress=None, both_sid
     return result
 
 
+def _values(path, values):
+    """The values of a parameter as a list; text is one value, not a list of characters."""
+    if isinstance(values, (str, Mapping)) or np.ndim(values) == 0:
+        raise TypeError(f"the values of {path!r} must be a list, as [{values!r}], not {values!r}")
+    return list(values)
+
+
+def _check_scenes(scenes):
+    for scene in scenes:
+        if not isinstance(scene, Scene):
+            raise TypeError(f"expected a Scene, made by load() or loads(), found {scene!r}")
+
+
 def _check_accuracy(accuracy):
     finest, coarsest = 1e-12, 0.1  # as core/netlist/simulate_table.cpp
+    if accuracy is not None and not isinstance(accuracy, numbers.Real):
+        raise TypeError(f"accuracy must be a number, but is {accuracy!r}")
     if accuracy is not None and not finest <= accuracy <= coarsest:
         raise ValueError(f"accuracy must be from 1e-12 to 0.1, but is {accuracy!r}")
 
 
 def _count(name, value):
+    if not isinstance(value, numbers.Integral):
+        raise TypeError(f"{name} must be a whole number, but is {value!r}")
     if value < 1:
         raise ValueError(f"{name} must be at least 1, but is {value!r}")
     return value
@@ -321,6 +372,18 @@ def _outcome(source, changes, paths, measures, accuracy, combination, progress=N
         error.add_note(f"in the run with {changed}")
         raise
     return result.summary["claims"] if measures else result
+
+
+def _measured(outcomes, measures, dimensions, shape):
+    """The measures of runs as variables of a data set."""
+    return {
+        name: (dimensions, np.reshape([figures[k]["found"] for figures in outcomes], shape), {"units": outcomes[0][k]["unit"]})
+        for k, name in enumerate(measures)
+    }
+
+
+def _texts(value):
+    return [value] if isinstance(value, str) else list(value or ())
 
 
 def _portable_outcome(*arguments):

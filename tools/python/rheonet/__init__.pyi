@@ -82,6 +82,18 @@ class Scene:
         jobs: int | None = ...,
         client: Any = ...,
     ) -> xarray.Dataset: ...
+    def sample(
+        self,
+        values: Mapping[str, str],
+        count: int,
+        measure: _Texts,
+        kind: str = ...,
+        seed: int = ...,
+        correlations: Mapping[tuple[str, str], float] = ...,
+        accuracy: float | None = ...,
+        jobs: int | None = ...,
+        client: Any = ...,
+    ) -> xarray.Dataset: ...
     def explain(self) -> dict[str, Any]: ...
     def compare(self, *others: Scene, pairs: Mapping[str, _Texts] = ..., progress: _Progress = ...) -> Comparison: ...
     def effects(self, runs: int = ..., progress: _Progress = ...) -> Effects: ...
