@@ -11,6 +11,8 @@ import numpy as np
 import pandas
 import pytest
 
+import rheonet as package
+
 RHEONET = os.environ["RHEONET"]
 
 SCENE = """
@@ -168,8 +170,12 @@ def test_a_table_of_a_mat_file_is_that_of_the_csv_file(rheonet):
     (rheonet.folder / "csv.toml").write_text((PULLED % columns).replace("rows.mat", "rows.csv"))
     assert from_mat == rheonet("run", "csv.toml", "-q").stdout
     assert len(set(from_mat.splitlines())) > 5
-    # The units of the columns: a position is no force.
-    assert "is a length" in pulled(rheonet, ', columns = ["time", "a.position"]', 2).stderr or "unit" in pulled(rheonet, ', columns = ["time", "a.position"]', 2).stderr
+    # The columns have units: a position is no force.
+    refused = pulled(rheonet, ', columns = ["time", "a.position"]', 2).stderr
+    assert "expected a force (N), found a length (m)" in refused
+    (rheonet.folder / "pulled.toml").write_text(PULLED % columns)
+    in_process = package.load(rheonet.folder / "pulled.toml").run()
+    np.testing.assert_array_equal(in_process["f1.force"], csv(from_mat)["f1.force"])
 
 
 def test_tables_of_mat_files_from_elsewhere(rheonet):

@@ -27,10 +27,13 @@ def test_a_notebook_runs(notebook, tmp_path):
     kernel.mkdir(parents=True)
     command = {"argv": [sys.executable, "-m", "ipykernel_launcher", "-f", "{connection_file}"], "display_name": "Python 3", "language": "python"}
     (kernel / "kernel.json").write_text(json.dumps(command))
-    words = ["-m", "nbconvert", "--to", "notebook", "--execute", "--output", "executed.ipynb", notebook.name]
-    done = subprocess.run([sys.executable, *words], cwd=tmp_path, env=environment | {"JUPYTER_PATH": str(tmp_path / "share/jupyter")}, capture_output=True, text=True)
-    assert done.returncode == 0, done.stderr[-3000:]
+    environment["JUPYTER_PATH"] = str(tmp_path / "share/jupyter")
+    for words in (["notebook", "--execute", "--output", "executed.ipynb", notebook.name], ["html", "executed.ipynb"]):
+        done = subprocess.run([sys.executable, "-m", "nbconvert", "--to", *words], cwd=tmp_path, env=environment, capture_output=True, text=True)
+        assert done.returncode == 0, done.stderr[-3000:]
     executed = code_cells(tmp_path / "executed.ipynb")
+    drawn = any(".plot(" in "".join(cell["source"]) for cell in executed)
+    assert ("data:image/svg+xml" in (tmp_path / "executed.html").read_text()) == drawn
     assert [cell["execution_count"] for cell in executed] == list(range(1, len(executed) + 1))
 
 

@@ -1,6 +1,8 @@
 """Data frames, data sets, sweeps, and what Jupyter shows."""
 
+import base64
 import os
+import re
 import signal
 import subprocess
 import threading
@@ -25,6 +27,10 @@ stop = 2
 output = { points = 2 }
 record = ["k1.force"]
 """
+
+
+def shown_svg(scene):
+    return base64.b64decode(re.search("base64,([^\"]*)", scene._repr_html_())[1]).decode()
 
 
 def test_a_data_frame():
@@ -98,7 +104,7 @@ def test_an_explanation_is_data():
 
 def test_jupyter_shows_schematic_and_table():
     scene = rheonet.load(OSCILLATOR)
-    drawing = xml.etree.ElementTree.fromstring(scene._repr_svg_())
+    drawing = xml.etree.ElementTree.fromstring(shown_svg(scene))
     assert drawing.tag.endswith("svg") and "k1" in "".join(drawing.itertext())
     table = scene.run()._repr_html_()
     xml.etree.ElementTree.fromstring(table)

@@ -294,9 +294,10 @@ class Scene:
         """Without the claims of the netlist, unless `measures` is None: they are about the scene as it stands, alone."""
         return _read(self._source, self._changes, measures, records, plotted)
 
-    def _repr_svg_(self):
+    def _repr_html_(self):
         """The schematic, for Jupyter; None if the network is too large to be drawn."""
-        return self._reading.schematic()
+        svg = self._reading.schematic()
+        return svg and _pictures.image(svg, f"schematic of {self.title or self._source.file}")
 
     def __repr__(self):
         return f"<rheonet.Scene {self.title or self._source.file!r}: {len(self.names)} records, {self.start:g} s to {self.stop:g} s>"

@@ -1,11 +1,18 @@
 """Figures and reports, which show themselves in Jupyter."""
 
+import base64
 import html
 import os
 import pathlib
 import warnings
 
 from . import _rheonet
+
+
+def image(svg, description):
+    """A drawing as HTML. Jupyter would show SVG itself, but pages that nbconvert makes of a notebook strip it."""
+    data = base64.b64encode(svg.encode()).decode()
+    return f'<img src="data:image/svg+xml;base64,{data}" alt="{html.escape(description)}" style="max-width: 100%">'
 
 
 class Figure:
@@ -28,8 +35,8 @@ class Figure:
             raise ValueError(f"a figure is saved as .svg or .png, not as {os.fspath(path)!r}")
         pathlib.Path(path).write_bytes(self._svg.encode() if ending == ".svg" else _rheonet.png(self._svg))
 
-    def _repr_svg_(self):
-        return self._svg
+    def _repr_html_(self):
+        return image(self._svg, "figure")
 
     def __repr__(self):
         return f"<rheonet.Figure: {len(self._svg)} bytes of SVG>"
