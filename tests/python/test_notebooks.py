@@ -33,7 +33,7 @@ def test_a_notebook_runs(notebook, tmp_path):
         assert done.returncode == 0, done.stderr[-3000:]
     executed = code_cells(tmp_path / "executed.ipynb")
     drawn = any(".plot(" in "".join(cell["source"]) for cell in executed)
-    assert ("data:image/svg+xml" in (tmp_path / "executed.html").read_text()) == drawn
+    assert ('<img src="data:image/svg+xml;base64,' in (tmp_path / "executed.html").read_text()) == drawn
     assert [cell["execution_count"] for cell in executed] == list(range(1, len(executed) + 1))
 
 
