@@ -45,20 +45,6 @@ std::string certificate_message(const Scene& scene, const Certificate& certifica
                           {"records", records}});
 }
 
-std::string price_message(const Scene& scene, const std::string& file, const PriceList& list) {
-  json prices = json::array();
-  for (const Price& price : list.prices) {
-    if (!price.failure.empty()) continue;
-    prices.push_back({{"tolerance", price.setting.tolerance},
-                      {"order", price.setting.order},
-                      {"error", price.error()},
-                      {"meets", price.meets},
-                      {"cpu", price.cpu_quantile(0.5)},
-                      {"steps", price.summary.steps}});
-  }
-  return report::to_line({{"kind", "prices"}, {"prices", prices}, {"accuracy", scene.accuracy}, {"text", describe(scene, file, list)}});
-}
-
 class Reporter {
  public:
   explicit Reporter(const Arguments& arguments) : arguments_(arguments) {}
@@ -108,7 +94,8 @@ class Reporter {
       for (int k = 2; k <= 10; ++k) settings.tolerances.push_back(std::pow(10.0, -k));
       settings.runs = 3;
       settings.interrupt = &interrupted_;
-      return price_message(*read.scene, file, price_list(*read.scene, settings));
+      const PriceList list = price_list(*read.scene, settings);
+      return report::prices_message(*read.scene, list, describe(*read.scene, file, list));
     } catch (const SimulationError& error) {
       if (interrupted_) throw;
       say("error: {}: no price list: {}\n", printable(file), error.what());

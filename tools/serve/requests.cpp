@@ -1,7 +1,10 @@
 #include "tools/serve/requests.hpp"
 
+#include <algorithm>
 #include <filesystem>
+#include <initializer_list>
 #include <nlohmann/json.hpp>
+#include <string_view>
 
 #include "tools/serve/folder.hpp"
 #include "tools/serve/netlist_name.hpp"
@@ -22,6 +25,8 @@ std::optional<json> scene_of(const json& value) {
   return json{{"text", value["text"]}, {"file", file.empty() ? "scene.toml" : file}, {"folder", folder}};
 }
 
+bool is_one_of(std::string_view kind, std::initializer_list<std::string_view> kinds) { return std::find(kinds.begin(), kinds.end(), kind) != kinds.end(); }
+
 }  // namespace
 
 std::string word(const json& value, const char* key) {
@@ -33,7 +38,7 @@ std::string word(const json& value, const char* key) {
 
 std::optional<json> task_of(const json& request) {
   const std::string kind = word(request, "task");
-  if (kind == "show" || kind == "explain" || kind == "csv") {
+  if (is_one_of(kind, {"show", "explain", "csv", "effects", "precision"})) {
     std::optional<json> task = scene_of(request);
     if (!task) return {};
     (*task)["task"] = kind;

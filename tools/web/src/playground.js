@@ -2,7 +2,6 @@
 import './style.css';
 import './playground.css';
 import { Animation } from './animation.js';
-import { explain } from './api.js';
 import { element, schematicOf } from './dom.js';
 import { Editor } from './editor.js';
 import { choices } from './choices.js';
@@ -35,7 +34,7 @@ class Playground {
     });
     this.sliders = new Sliders(this.parts.sliders, this.editor);
     this.plots = new PlotPanel(this.parts.plots, { onchange: () => this.showSections() });
-    this.folds = new Folds(this.parts.sections, () => this.explain());
+    this.folds = new Folds(this.parts.sections, () => this.request());
     this.animation = new Animation(this.parts.animation, { onframe: (time) => this.plots.mark(time) });
     listenToKeys({
       save: () => this.files.save(),
@@ -116,6 +115,7 @@ class Playground {
   load(k, { text, file, version = '', opened = text }) {
     const variant = this.variants[k];
     Object.assign(variant, { text, file, version, opened, answered: null, fresh: true });
+    this.folds.stop();
     if (k === this.active) {
       this.editor.load(text);
       this.clear();
@@ -145,6 +145,7 @@ class Playground {
     const variant = this.current;
     variant.text = text;
     this.showBusy();
+    this.folds.stop();
     this.files.changed();
     clearTimeout(this.typing);
     if (typed) this.typing = setTimeout(() => variant.runner.run(text, variant.file), typing);
@@ -262,9 +263,9 @@ class Playground {
         element('b', {}, line ? `${line}:${column} ` : ''), message, hint ? element('span', { class: 'hint' }, ` – ${hint}`) : null)));
   }
 
-  explain() {
+  request() {
     const { text, file, runner } = this.current;
-    return explain({ text, file, session: `${runner.session}-why` });
+    return { text, file, session: runner.session };
   }
 
   showSections() {

@@ -2,7 +2,7 @@
 import katex from 'katex';
 import 'katex/dist/katex.min.css';
 import { element, table } from './dom.js';
-import { LoopChart } from './loop-chart.js';
+import { priceChart } from './prices.js';
 import { TimeChart, TimeGroup } from './time-chart.js';
 import { grouped, number, runTime, spaced, timeShown, withUnit } from './units.js';
 
@@ -164,17 +164,9 @@ export function accuracyOf(data, charts = []) {
           relative > 0 ? relative.toExponential(1) : '0', error > 0 ? `${number(at)}\u00a0s` : '–', withUnit(scale, unit)]), 'Errors'));
   }
   if (prices) {
-    const known = prices.prices.filter(({ error }) => error > 0);
     const plot = element('div');
     host.append(element('p', {}, 'What each accuracy costs: CPU time over the error that is made.'), plot, element('pre', { tabindex: '0' }, prices.text));
-    if (known.length)
-      queueMicrotask(() => charts.push(new LoopChart(plot, {
-        x: { quantity: 'relative error of the worst record', unit: '', log: true },
-        y: { quantity: 'CPU time', unit: 's', log: true },
-        curves: [{ name: 'order up to 5', x: known.map((p) => p.error), y: known.map((p) => p.cpu) }],
-        height: 300,
-        marks: true,
-      })));
+    if (prices.prices.length) queueMicrotask(() => charts.push(priceChart(plot, prices.prices, 'CPU time', 's', ({ cpu }) => cpu)));
   }
   return host;
 }

@@ -1,0 +1,87 @@
+// What takes many runs of a scene: its effects, the price of accuracy.
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+import { number, redrawn, setUp, stickSlip } from './desk.mjs';
+import { accessible, bingham } from './support.mjs';
+
+const creamy = stickSlip.replace('k1 = ', 'oil = { type = "dashpot", between = ["block", "ground"], damping = "1e-9 N*s/m" }\nk1 = ');
+const desk = setUp({ 'bingham.toml': bingham, 'oil.toml': creamy, 'stick-slip.toml': stickSlip,
+  'vfm.toml': bingham.replace('type = "dashpot",', 'type = "cfm", stiffness = "50 N*m/rad", coulomb = "3 N*m",') });
+
+const unfold = (page, name) => page.locator(`.sections details[data-name="${name}"] summary`).first().click();
+const fold = (page, name) => page.locator(`.sections details[data-name="${name}"]`);
+const rows = (part) => part.evaluateAll((all) => all.map((row) => [...row.cells].map((cell) => cell.textContent)));
+
+test('effects: each left out by itself, the curve that changes most, and the simplest model that is good enough', async () => {
+  const { page, close } = await desk.open('#file=oil.toml');
+  await unfold(page, 'Effects');
+  const effects = fold(page, 'Effects');
+  await effects.locator('table').first().waitFor();
+  assert.match(await effects.locator('.finding').textContent(), /^To 1 % this scene needs inertia, elasticity, dry friction\. Without viscosity every record stays within 1e-4 % of the full model/);
+  const table = await rows(effects.locator('.scroll table').first().locator('tbody tr'));
+  assert.deepEqual(table.map(([name]) => name), ['nothing (the full model)', 'inertia', 'elasticity', 'viscosity', 'dry friction']);
+  const of = Object.fromEntries(table.map(([name, off]) => [name, off]));
+  assert.match(of.viscosity, /^< /);
+  assert.ok(Number.parseFloat(of['dry friction']) > 50, of['dry friction']);
+  assert.ok(await effects.locator('.chart canvas').isVisible());
+  const curves = await effects.locator('.u-label').allTextContents();
+  assert.ok(curves.includes('full model') && curves.includes('without inertia'), curves.join());
+  await accessible(page, 'effects');
+  await close();
+});
+
+test('effects: they follow the netlist', async () => {
+  const { page, close } = await desk.open('#file=oil.toml');
+  await unfold(page, 'Effects');
+  const verdict = fold(page, 'Effects').locator('.finding');
+  await verdict.waitFor();
+  await redrawn(page, () => number(page, 'oil.damping').fill('30').then(() => number(page, 'oil.damping').press('Enter')));
+  await page.waitForFunction(() => /needs.*viscosity/.test(document.querySelector('[data-name="Effects"] .analysis > .finding')?.textContent));
+  await close();
+});
+
+test('accuracy costs nothing where exact arcs solve the scene, and the page says why', async () => {
+  const { page, close } = await desk.open('#file=stick-slip.toml');
+  await unfold(page, 'Price of accuracy');
+  const prices = fold(page, 'Price of accuracy');
+  await prices.locator('table').waitFor();
+  assert.match(await prices.locator('.finding').textContent(), /^Accuracy costs nothing here: between two events all laws of this scene are linear.*\d+ steps give every digit/);
+  const table = await rows(prices.locator('.scroll tbody tr'));
+  const arcs = table.filter(([method]) => method === 'exact arcs');
+  const steps = table.filter(([method]) => method.startsWith('step by step')).map((row) => Number(row[4].replace(',', '')));
+  assert.equal(arcs.length, 1);
+  assert.ok(steps.at(-1) > 3 * steps[0] && Number(arcs[0][4].replace(',', '')) < steps[0], `${steps} ${arcs}`);
+  assert.equal(await prices.locator('.chart.loop canvas').count(), 2);
+  await accessible(page, 'price of accuracy');
+  await close();
+});
+
+test('what a digit costs where a law is not linear, and why', async () => {
+  const { page, close } = await desk.open('#file=vfm.toml');
+  await unfold(page, 'Price of accuracy');
+  const prices = fold(page, 'Price of accuracy');
+  await prices.locator('table').waitFor();
+  const words = await prices.locator('.finding').textContent();
+  assert.match(words, /step by step, by the integrator IDA: the law of c1 \(cfm\) is not linear\. Each further digit takes 1\.\d+ times the steps/);
+  const errors = (await rows(prices.locator('.scroll tbody tr'))).map((row) => Number(row[2].replace('< ', '')));
+  assert.ok(errors[0] > 1e3 * errors[6], String(errors));
+  await close();
+});
+
+test('a newer text ends what takes long, and what it asks for is measured in its place', async () => {
+  const { page, close } = await desk.open('#file=stick-slip.toml');
+  const asked = [];
+  const ended = [];
+  page.on('request', (request) => request.url().endsWith('/api/task') && request.postDataJSON().task === 'precision' && asked.push(request));
+  page.on('requestfailed', (request) => request.url().endsWith('/api/task') && request.postDataJSON().task === 'precision' && ended.push(request));
+  await redrawn(page, () => number(page, 'simulate.stop').fill('20000').then(() => number(page, 'simulate.stop').press('Enter')));
+  await unfold(page, 'Price of accuracy');
+  const prices = fold(page, 'Price of accuracy');
+  await prices.locator('progress').waitFor();
+  await redrawn(page, () => number(page, 'simulate.stop').fill('8').then(() => number(page, 'simulate.stop').press('Enter')));
+  await prices.locator('table').waitFor();
+  const last = asked.pop();
+  assert.match(last.postDataJSON().text, /stop = "8 s"/);
+  assert.ok(asked.length > 0 && asked.every((request) => ended.includes(request)) && !ended.includes(last));
+  await close();
+});
