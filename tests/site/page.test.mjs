@@ -57,6 +57,11 @@ for (const [what, address, cut] of [['a static host', () => hosted.address, fals
     await accessible(page, 'gallery');
     await page.locator('.gallery input').fill('bingham yields');
     await page.locator('.card:visible').first().click();
+    // Its card opens its lesson.
+    await page.getByRole('radio', { name: /falls, but not to 0/ }).check();
+    await page.getByRole('button', { name: 'Compare with the run' }).click();
+    assert.match(await page.textContent('.lesson-steps'), /That is what happens\./);
+    await page.getByRole('button', { name: 'Leave the lesson' }).click();
     await done(page);
     assert.equal(await page.textContent('.question'), 'Paint runs down the wall while it is brushed, and then stays. What makes a liquid hold still?');
 

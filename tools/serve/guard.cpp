@@ -53,9 +53,9 @@ std::string cookie_of(const httplib::Request& request, const std::string& name) 
 
 }  // namespace
 
-TableReader::TableReader(int port) : token_(random_word()), page_key_(random_word()), cookie_(fmt::format("rheonet-{}", port)) {}
+Keys::Keys(int port) : token_(random_word()), page_key_(random_word()), cookie_(fmt::format("rheonet-{}", port)) {}
 
-bool TableReader::admit(const httplib::Request& request, httplib::Response& response) const {
+bool Keys::admit(const httplib::Request& request, httplib::Response& response) const {
   if (is_same(request.get_header_value("Authorization"), "Bearer " + token_)) return true;
   if (is_same(request.get_param_value("token"), token_)) {
     // From a link that leads to the page the cookie comes too; what else it opens holds nothing of the folder.

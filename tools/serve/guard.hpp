@@ -12,10 +12,10 @@ namespace rheonet::serve {
 /// The printed address has a token in it. The page keeps the token in the storage of its own origin, and sends it with each
 /// request to /api/. A cookie is not safe enough for that: browsers send it to every port of the machine, and a port may belong
 /// to another user. The cookie that is set with the page therefore holds another key, which only loads the page again.
-class TableReader {
+class Keys {
  public:
   /// For the server at a port: of several servers on a machine each has a cookie of its own. Throws std::system_error.
-  explicit TableReader(int port);
+  explicit Keys(int port);
 
   /// "?token=...", which follows the address of the page.
   std::string query() const { return "?token=" + token_; }

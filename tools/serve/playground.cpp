@@ -108,7 +108,7 @@ std::vector<std::string> hosts_of(const std::string& host) {
 }
 
 /// Says where the playground is, and who can reach it.
-void announce(const ServeArguments& wanted, const Folder& folder, const TableReader& keys, int port) {
+void announce(const ServeArguments& wanted, const Folder& folder, const Keys& keys, int port) {
   const std::vector<std::string> hosts = hosts_of(wanted.host);
   fmt::print("{}{} (Ctrl-C ends it): the netlists of {}\n", address_of(hosts.front(), port), keys.query(),
              printable(folder.path().string()));
@@ -132,7 +132,7 @@ ExitStatus listen(const ServeArguments& wanted, Folder& folder) {
                          : "the address is not this machine's, or the port is in use\n  `--port 0` takes any that is free");
     return not_simulated;
   }
-  const TableReader keys(port);
+  const Keys keys(port);
   Api api(folder, pool, keys);
   api.attach(server, wanted.host);
   const std::atomic<bool>& interrupted = end_on_signals();

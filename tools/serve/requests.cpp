@@ -38,11 +38,12 @@ std::string word(const json& value, const char* key) {
 
 std::optional<json> task_of(const json& request) {
   const std::string kind = word(request, "task");
-  if (is_one_of(kind, {"show", "explain", "csv", "effects", "precision"})) {
+  if (is_one_of(kind, {"show", "explain", "csv", "effects", "precision", "lesson"})) {
     std::optional<json> task = scene_of(request);
     if (!task) return {};
     (*task)["task"] = kind;
     (*task)["draw"] = request.value("draw", json()) == true;
+    (*task)["language"] = word(request, "language");
     return task;
   }
   if ((kind != "report" && kind != "figure") || !request.contains("scenes") || !request["scenes"].is_array()) return {};
@@ -68,6 +69,7 @@ json listing_of(const Folder& folder) {
   for (const Folder::Entry& each : listing.scenes) {
     scenes.push_back({{"file", each.file}, {"title", each.title}, {"about", each.about}});
     if (each.place) scenes.back()["place"] = *each.place;
+    if (each.lesson) scenes.back()["lesson"] = {{"level", each.lesson->level}, {"minutes", each.lesson->minutes}};
   }
   return {{"name", folder.path().filename().string()},
           {"may_be_written", folder.may_be_written()},

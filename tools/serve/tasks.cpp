@@ -12,6 +12,7 @@
 #include "tools/rheonet/both_sides.hpp"
 #include "tools/rheonet/plot_source.hpp"
 #include "tools/serve/analyses.hpp"
+#include "tools/serve/lesson.hpp"
 #include "tools/serve/sent_scene.hpp"
 
 namespace rheonet::serve {
@@ -138,6 +139,7 @@ void carry_out(const json& task, const Offers& offers, const Tell& tell) {
     if (kind == "report") return report_of(task, offers, tell);
     if (kind == "figure") return figure(task, offers, tell);
     if (kind == "effects") return weigh_effects(task, offers, tell);
+    if (kind == "lesson") return tell_lesson(task, offers, tell);
     if (kind == "precision") return price_accuracy(task, offers, tell);
   } catch (const std::bad_alloc&) {
     throw;

@@ -63,8 +63,12 @@ export class Editor {
 
   // Puts something in place of a part of the text; not as if it had been typed.
   replace(from, to, insert) {
+    this.replaceAll([{ from, to, insert }]);
+  }
+
+  replaceAll(changes) {
     this.quiet = true;
-    this.view.dispatch({ changes: { from, to, insert }, userEvent: 'slide' });
+    this.view.dispatch({ changes, userEvent: 'slide' });
     this.quiet = false;
   }
 

@@ -2,17 +2,19 @@
 import { folder, open } from './api.js';
 import { download, exporters } from './export.js';
 import { firstScene } from './first-scene.js';
-import { Gallery } from './gallery.js';
+import { Gallery, inOrder } from './gallery.js';
 import { decode, encode } from './link.js';
 import { SaveDialog } from './save-dialog.js';
 
 const pause = 400; // ms after a change until it is kept: browsers count how often somebody writes into their history
 
+const folderOf = (file) => file.slice(0, file.lastIndexOf('/') + 1);
+
 export class Files {
   constructor(desk) {
     this.desk = desk;
     this.folder = { scenes: [], may_be_written: false };
-    this.gallery = new Gallery({ onopen: (file) => this.openFile(file, true) });
+    this.gallery = new Gallery({ onopen: (file, isLesson) => this.openFile(file, true, isLesson) });
     this.saving = new SaveDialog({ onsaved: (saved) => this.saved(saved) });
     addEventListener('popstate', (event) => this.openAddress(event.state));
     addEventListener('beforeunload', () => this.keep());
@@ -44,7 +46,7 @@ export class Files {
   async openLink() {
     const [kind, value] = location.hash.slice(1).split(/=(.*)/s);
     try {
-      if (kind === 'file') return await this.openFile(decodeURIComponent(value));
+      if (kind === 'file' || kind === 'lesson') return await this.openFile(decodeURIComponent(value), false, kind === 'lesson');
       if (kind !== 'scene') return false;
       const { scenes, plots } = await decode(value);
       this.desk.begin({ scenes: scenes.slice(0, 2).map(({ text, file }) => ({ text: String(text), file: String(file) })), plots });
@@ -56,13 +58,18 @@ export class Files {
     }
   }
 
-  // `anew`: there is a way back to what was there before.
-  async openFile(file, anew = false) {
+  // The netlists beside this one that have a lesson, in the order of the gallery.
+  lessons() {
+    return this.folder.scenes.filter(({ file, lesson }) => lesson && folderOf(file) === folderOf(this.desk.current.file)).sort(inOrder);
+  }
+
+  // `anew`: there is a way back to what was there before; `lesson`: the netlist is opened for its lesson.
+  async openFile(file, anew = false, lesson = false) {
     try {
       const { text, version } = await open(file);
       if (anew) this.keep();
-      this.nameInAddress(file, anew);
-      this.desk.begin({ scenes: [{ text, file, version }] });
+      this.nameInAddress(file, anew, lesson);
+      this.desk.begin({ scenes: [{ text, file, version }], lesson });
       return true;
     } catch (error) {
       this.desk[anew ? 'say' : 'notify'](`${file}: ${error.message}`, true);
@@ -70,8 +77,8 @@ export class Files {
     }
   }
 
-  nameInAddress(file, anew = false) {
-    history[anew ? 'pushState' : 'replaceState'](null, '', `#file=${encodeURIComponent(file)}`);
+  nameInAddress(file, anew = false, lesson = false) {
+    history[anew ? 'pushState' : 'replaceState'](null, '', `#${lesson ? 'lesson' : 'file'}=${encodeURIComponent(file)}`);
   }
 
   changed() {

@@ -1,12 +1,14 @@
 // The netlists of the folder, to choose from.
 import { open, task } from './api.js';
 import { element, schematicOf } from './dom.js';
+import { aboutLesson } from './lesson.js';
+import { t } from './messages.js';
 import { inWords } from './sections.js';
 
 const words = new Intl.Collator('en', { numeric: true });
 const byName = (a, b) => words.compare(a.title || a.file, b.title || b.file) || words.compare(a.file, b.file);
 // In the order in which the page of their folder tells of them; what it leaves out comes last.
-const inOrder = (a, b) => (a.place ?? Infinity) - (b.place ?? Infinity) || byName(a, b);
+export const inOrder = (a, b) => (a.place ?? Infinity) - (b.place ?? Infinity) || byName(a, b);
 
 // Scenes for beginners come first, scenes that test the solver last.
 const rank = (folder) => (folder.startsWith('teaching') ? 0 : folder.startsWith('hard') ? 2 : 1);
@@ -51,11 +53,13 @@ export class Gallery {
   card(scene) {
     const picture = element('div', { class: 'card-picture', 'aria-hidden': 'true' });
     const card = element('button', { type: 'button', class: 'card', 'data-file': scene.file },
-      picture, element('span', { class: 'card-title' }, scene.title || scene.file), element('span', { class: 'card-about' }, scene.about || scene.file),
+      picture, element('span', { class: 'card-title' }, scene.title || scene.file),
+      scene.lesson ? element('span', { class: 'card-lesson' }, t('Lesson: {about}', { about: aboutLesson(scene.lesson) })) : null,
+      element('span', { class: 'card-about' }, scene.about || scene.file),
       scene.title && scene.about && this.names.get(scene.title) > 1 ? element('code', { class: 'card-file' }, scene.file.split('/').at(-1)) : null);
     card.addEventListener('click', () => {
       this.dialog.close();
-      this.onopen(scene.file);
+      this.onopen(scene.file, Boolean(scene.lesson));
     });
     this.drawn.observe(card);
     return card;

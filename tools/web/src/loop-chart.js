@@ -16,7 +16,7 @@ function decades(plot, axis, min, max) {
 }
 
 export class LoopChart extends Chart {
-  // curves: [{ name, time, x, y }]; what is along the axes: { quantity, unit, as }, or { log: true } of both.
+  // curves: [{ name, time, x, y, dash }], `dash` as a canvas takes it; what is along the axes: { quantity, unit, as }, or { log: true } of both.
   constructor(host, { x, y, curves, height = 380, marks = false }) {
     super(host, height);
     this.marks = marks;
@@ -99,6 +99,7 @@ export class LoopChart extends Chart {
     ctx.strokeStyle = ctx.fillStyle = colour(this.curves[s - 1].style ?? s - 1);
     ctx.lineWidth = 1.6 * devicePixelRatio;
     ctx.lineJoin = 'round';
+    ctx.setLineDash((this.curves[s - 1].dash ?? []).map((length) => length * devicePixelRatio));
     ctx.beginPath();
     for (let i = 0; i < xs.length; ++i) ctx.lineTo(plot.valToPos(xs[i], 'x', true), plot.valToPos(ys[i], 'y', true));
     ctx.stroke();

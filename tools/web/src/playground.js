@@ -1,4 +1,5 @@
 // The playground: a netlist in an editor, its schematic, its sliders and its plots, which follow each other.
+import { language } from './language.js'; // first: the modules below have texts
 import './style.css';
 import './playground.css';
 import { Animation } from './animation.js';
@@ -10,6 +11,7 @@ import { firstScene } from './first-scene.js';
 import { Folds } from './folds.js';
 import { helpDialog } from './help.js';
 import { listenToKeys } from './keys.js';
+import { Lesson } from './lesson.js';
 import { menu } from './menu.js';
 import { PlotPanel } from './plot-panel.js';
 import { Runner } from './runner.js';
@@ -36,9 +38,15 @@ class Playground {
     this.plots = new PlotPanel(this.parts.plots, { onchange: () => this.showSections() });
     this.folds = new Folds(this.parts.sections, () => this.request());
     this.animation = new Animation(this.parts.animation, { onframe: (time) => this.plots.mark(time) });
+    this.course = new Lesson(this.lesson, {
+      sliders: this.sliders, language,
+      others: () => this.files.lessons(),
+      onopen: (file) => this.files.openFile(file, true, true),
+      onleave: (file) => this.files.openFile(file, true),
+    });
     listenToKeys({
       save: () => this.files.save(),
-      play: () => this.animation.toggle(),
+      play: () => this.course.isConcealing || this.animation.toggle(),
       gallery: () => this.files.gallery.open(),
     });
   }
@@ -99,14 +107,16 @@ class Playground {
   }
 
   // Puts other scenes, one or two to compare, in the place of those that are there.
-  begin({ scenes, active = scenes.length - 1, plots = {} }, notice = '') {
+  begin({ scenes, active = scenes.length - 1, plots = {}, lesson = false }, notice = '') {
     this.endComparison();
+    this.course.end();
     this.plots.state = plots ?? {};
     if (notice) this.notify(notice);
     scenes.slice(1).forEach(({ text, file }) => this.variants.push(this.variant('B', text, file)));
     this.active = scenes[active] ? active : 0;
     this.showChoice();
     scenes.forEach((scene, k) => this.load(k, scene));
+    if (lesson) this.course.begin(scenes[0]);
   }
 
   // Texts and runs.
@@ -219,6 +229,7 @@ class Playground {
     this.showLesson(scene);
     this.showSchematic(scene);
     this.animation.attach(this.parts.drawing.querySelector('svg'), data);
+    this.course.take(data);
   }
 
   showTitle(title) {
@@ -236,7 +247,7 @@ class Playground {
     const words = JSON.stringify(scene.demo ?? null);
     if (words === this.words) return;
     this.words = words;
-    this.lesson.hidden = !scene.demo;
+    this.lesson.hidden = !scene.demo && !this.course.isOn;
     this.lesson.querySelector('.lesson')?.remove();
     if (scene.demo) this.lesson.append(lessonOf(scene, true));
   }

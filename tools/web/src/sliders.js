@@ -27,9 +27,13 @@ class Slider {
       this.accept();
       this.putBack();
     });
-    this.row = element('div', { class: 'slider', title: knob.description, 'data-slider': `${knob.group}.${knob.name}` },
+    this.row = element('div', { class: 'slider', title: knob.description, 'data-slider': this.path },
       element('span', { class: 'slider-name' }, breakable(knob.name)), this.range, this.number, element('span', { class: 'unit' }, breakable(knob.unit)), this.why);
     this.show();
+  }
+
+  get path() {
+    return `${this.knob.group}.${this.knob.name}`;
   }
 
   // What is typed is the number alone: a unit or a comma that was left out in silence would make it another one.
@@ -172,6 +176,17 @@ export class Sliders {
         element('details', {}, element('summary', {}, `All other numbers (${others.length})`), grouped(others)));
     } else this.host.replaceChildren(...grouped(others));
     if (!this.all.length) this.host.append(element('p', { class: 'note' }, 'The netlist has no numbers to turn.'));
+  }
+
+  // The texts in the netlist of the numbers with these paths, "parameters.B".
+  literals(paths) {
+    return Object.fromEntries(this.all.filter(({ path }) => paths.includes(path)).map((slider) => [slider.path, slider.literal()]));
+  }
+
+  // Writes other texts in the place of numbers. The sliders follow as soon as the netlist has been read.
+  put(literals) {
+    const changes = this.all.filter(({ path }) => literals[path]).map((slider) => ({ from: slider.from, to: slider.from + slider.literal().length, insert: literals[slider.path] }));
+    this.editor.replaceAll(changes);
   }
 
   clear() {
