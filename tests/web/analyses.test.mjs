@@ -1,11 +1,15 @@
-// What takes many runs of a scene: its effects, the price of accuracy.
+// What takes many runs of a scene: its effects, the price of accuracy, a sweep.
 import assert from 'node:assert/strict';
+import { readFileSync } from 'node:fs';
+import { dirname, join } from 'node:path';
 import { test } from 'node:test';
+import { fileURLToPath } from 'node:url';
 import { number, redrawn, setUp, stickSlip } from './desk.mjs';
 import { accessible, bingham } from './support.mjs';
 
 const creamy = stickSlip.replace('k1 = ', 'oil = { type = "dashpot", between = ["block", "ground"], damping = "1e-9 N*s/m" }\nk1 = ');
-const desk = setUp({ 'bingham.toml': bingham, 'oil.toml': creamy, 'stick-slip.toml': stickSlip,
+const demo = (name) => readFileSync(join(dirname(fileURLToPath(import.meta.url)), '../../netlists/teaching', name), 'utf8');
+const desk = setUp({ 'bingham.toml': bingham, 'forced.toml': demo('oscillator-forced.toml'), 'iwan.toml': demo('coulomb-to-iwan.toml'), 'oil.toml': creamy, 'stick-slip.toml': stickSlip,
   'vfm.toml': bingham.replace('type = "dashpot",', 'type = "cfm", stiffness = "50 N*m/rad", coulomb = "3 N*m",') });
 
 const unfold = (page, name) => page.locator(`.sections details[data-name="${name}"] summary`).first().click();
@@ -83,5 +87,50 @@ test('a newer text ends what takes long, and what it asks for is measured in its
   const last = asked.pop();
   assert.match(last.postDataJSON().text, /stop = "8 s"/);
   assert.ok(asked.length > 0 && asked.every((request) => ended.includes(request)) && !ended.includes(last));
+  await close();
+});
+
+// Sweeps from one value to another, and gives the last number that is drawn.
+async function swept(page, { number: name, from, to, runs, measure, records = [] }) {
+  await unfold(page, 'Sweep');
+  const sweep = fold(page, 'Sweep');
+  await sweep.getByLabel('number', { exact: true }).selectOption(name);
+  await sweep.getByLabel('measure', { exact: true }).selectOption({ label: measure });
+  for (const [label, record] of records) await sweep.getByLabel(label, { exact: true }).selectOption(record);
+  for (const [label, value] of Object.entries({ from, to, runs })) {
+    await sweep.getByLabel(label, { exact: true }).fill(String(value));
+    await sweep.getByLabel(label, { exact: true }).press('Tab');
+  }
+  await sweep.getByRole('button', { name: 'Run the sweep' }).click();
+  await sweep.getByText(`${runs} of ${runs} runs`).waitFor();
+  return (await sweep.locator('.analysis').getAttribute('data-last')).split(' ').map(Number);
+}
+
+test('a sweep draws the resonance curve: F/(2 zeta k) at resonance', async () => {
+  const { page, close } = await desk.open('#file=forced.toml');
+  const [at, amplitude] = await swept(page, { number: 'parameters.r', from: 0.5, to: 1, runs: 6, measure: 'amplitude in the last third', records: [['record', 'block.position']] });
+  assert.equal(at, 1);
+  assert.ok(Math.abs(amplitude - 1 / (2 * 0.1 * 200)) < 0.02 * amplitude, String(amplitude));
+  assert.ok(await fold(page, 'Sweep').locator('.chart.loop canvas').isVisible());
+  await accessible(page, 'sweep');
+  await close();
+});
+
+test('a sweep of the number of elements shows the error: 2 Fc/(4 n^2) of n sliders', async () => {
+  const { page, close } = await desk.open('#file=iwan.toml');
+  const [n, error] = await swept(page, { number: 'parameters.n', from: 1, to: 8, runs: 8, measure: 'largest difference from', records: [['other record', 'iwan.force'], ['record', 'smooth.force']] });
+  assert.equal(n, 8);
+  assert.ok(Math.abs(error - (2 * 5) / (4 * 64)) < 0.02 * error, String(error));
+  await close();
+});
+
+test('a sweep says which runs failed, and what is no number', async () => {
+  const { page, close } = await desk.open('#file=stick-slip.toml');
+  await swept(page, { number: 'm1.mass', from: -1, to: 1, runs: 3, measure: 'steps' });
+  assert.match(await fold(page, 'Sweep').textContent(), /2 of the runs failed\. The first: .*mass/);
+  await fold(page, 'Sweep').getByLabel('to', { exact: true }).fill('much');
+  await fold(page, 'Sweep').getByLabel('to', { exact: true }).press('Tab');
+  await fold(page, 'Sweep').getByRole('button', { name: 'Run the sweep' }).click();
+  assert.match(await fold(page, 'Sweep').textContent(), /“much” is not a number\./);
   await close();
 });

@@ -5,11 +5,14 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <string>
+#include <variant>
 
 #include "core/network/linearity.hpp"
 #include "tools/report/row_decimation.hpp"
 #include "tools/rheonet/arguments.hpp"
 #include "tools/rheonet/both_sides.hpp"
+#include "tools/rheonet/sweep_table.hpp"
 #include "tools/serve/sent_scene.hpp"
 
 namespace rheonet::serve {
@@ -28,6 +31,12 @@ auto progress_to(const Tell& tell) {
       tell(report::to_line({{"kind", "progress"}, {"fraction", fraction}}));
     }
   };
+}
+
+std::string first_error(const ReadResult& read) {
+  for (const Diagnostic& each : read.diagnostics)
+    if (each.severity == Severity::error) return each.message;
+  return "";
 }
 
 /// The scene of a task, without its claims, which are about the full model at its own accuracy. Its mistakes are told; absent if it has errors.
@@ -96,6 +105,38 @@ void price_accuracy(const json& task, const std::vector<const FileOffer*>& offer
   if (std::find(settings.tolerances.begin(), settings.tolerances.end(), scene->accuracy) == settings.tolerances.end()) settings.tolerances.push_back(scene->accuracy);
   if (!not_linear(*scene)) settings.methods.push_back({.name = "exact", .method = Scene::Method::exact});
   tell(report::prices_message(*scene, price_list(*scene, settings), ""));
+}
+
+void sweep_number(const json& task, const std::vector<const FileOffer*>& offers, const Tell& tell) {
+  const auto path = task.at("path").get<std::string>();
+  const auto made = tool::SweepTable::make({path}, task.at("measures").get<std::vector<std::string>>());
+  if (const auto* wrong = std::get_if<tool::NoVariation>(&made)) return tell(report::to_line({{"kind", "failed"}, {"message", wrong->message + "; " + wrong->hint}}));
+  tool::SweepTable table = std::get<tool::SweepTable>(made);
+  const SentScene netlist = sent_scene(task);
+  bool has_units = false;
+  for (const auto& value : task.at("values").get<std::vector<std::string>>()) {
+    ReadOptions options;
+    options.overrides = task.at("set").get<std::vector<std::string>>();
+    options.overrides.push_back(path + '=' + value);
+    options.measures = table.record_measures();
+    options.claims = false;  // they are about the scene as it stands
+    const ReadResult read = read_sent(netlist, offers, options);
+    json point{{"kind", "point"}, {"value", value}, {"measures", json::array()}, {"failure", ""}};
+    try {
+      if (!read.scene) throw SimulationError(first_error(read));
+      if (!has_units) {
+        table.set_scene(*read.scene);
+        has_units = true;
+        tell(report::to_line({{"kind", "measures"}, {"units", table.measure_units()}}));
+      }
+      RunSettings settings;
+      settings.account = table.needs_account();
+      point["measures"] = table.values(run(*read.scene, settings));
+    } catch (const SimulationError& error) {
+      point["failure"] = error.what();
+    }
+    tell(report::to_line(point));
+  }
 }
 
 }  // namespace rheonet::serve

@@ -16,4 +16,8 @@ void weigh_effects(const nlohmann::json& task, const std::vector<const FileOffer
 /// What accuracy costs: the message `prices`.
 void price_accuracy(const nlohmann::json& task, const std::vector<const FileOffer*>& offers, const report::Tell& tell);
 
+/// Measures of the scene, as `rheonet sweep --measure` names them, for each of some values of a number: `point` for each value, with
+/// its measures or why it failed.
+void sweep_number(const nlohmann::json& task, const std::vector<const FileOffer*>& offers, const report::Tell& tell);
+
 }  // namespace rheonet::serve

@@ -27,6 +27,15 @@ std::optional<json> scene_of(const json& value) {
 
 bool is_one_of(std::string_view kind, std::initializer_list<std::string_view> kinds) { return std::find(kinds.begin(), kinds.end(), kind) != kinds.end(); }
 
+/// A list of strings of a request; absent if it is none, or has more of them than anyone waits for.
+std::optional<json> words_of(const json& request, const char* key) {
+  constexpr std::size_t most = 1000;
+  const auto found = request.find(key);
+  if (found == request.end() || !found->is_array() || found->size() > most) return {};
+  const bool all = std::all_of(found->begin(), found->end(), [](const json& each) { return each.is_string() && each.get_ref<const std::string&>().size() <= longest_name; });
+  return all ? std::optional(json(*found)) : std::nullopt;
+}
+
 }  // namespace
 
 std::string word(const json& value, const char* key) {
@@ -44,6 +53,18 @@ std::optional<json> task_of(const json& request) {
     (*task)["task"] = kind;
     (*task)["draw"] = request.value("draw", json()) == true;
     (*task)["language"] = word(request, "language");
+    return task;
+  }
+  if (kind == "sweep") {
+    std::optional<json> task = scene_of(request);
+    if (!task) return {};
+    (*task)["task"] = kind;
+    (*task)["path"] = word(request, "path");
+    for (const char* key : {"values", "measures", "set"}) {
+      const std::optional<json> list = words_of(request, key);
+      if (!list) return {};
+      (*task)[key] = *list;
+    }
     return task;
   }
   if ((kind != "report" && kind != "figure") || !request.contains("scenes") || !request["scenes"].is_array()) return {};

@@ -140,6 +140,7 @@ void carry_out(const json& task, const Offers& offers, const Tell& tell) {
     if (kind == "figure") return figure(task, offers, tell);
     if (kind == "effects") return weigh_effects(task, offers, tell);
     if (kind == "lesson") return tell_lesson(task, offers, tell);
+    if (kind == "sweep") return sweep_number(task, offers, tell);
     if (kind == "precision") return price_accuracy(task, offers, tell);
   } catch (const std::bad_alloc&) {
     throw;

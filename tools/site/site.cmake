@@ -9,7 +9,7 @@ if(RHEONET_SITE AND RHEONET_WEB AND NODE AND NPM)
   if(EMXX AND FAST_FLOAT_INCLUDE)
     set(site ${PROJECT_SOURCE_DIR}/tools/site)
     file(GLOB site_sources CONFIGURE_DEPENDS core/*/*.[ch]pp components/*.[ch]pp tools/plot/* tools/draw/* tools/report/* tools/rheonet/*.[ch]pp
-      tools/serve/*.[ch]pp tools/site/* tools/web/* tools/web/src/*)
+      tools/serve/*.[ch]pp tools/site/* tools/web/* tools/web/src/* tools/web/src/*/*)
     file(GLOB_RECURSE site_netlists CONFIGURE_DEPENDS netlists/*.toml netlists/*.csv netlists/*.lesson netlists/README.md)
     add_executable(rheonet_unit_table EXCLUDE_FROM_ALL ${site}/unit_table.cpp)
     target_include_directories(rheonet_unit_table SYSTEM PRIVATE ${UDUNITS2_INCLUDE})

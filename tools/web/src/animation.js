@@ -1,6 +1,7 @@
 // Moves the schematic as the network moves: masses and rods shift, springs stretch, sliders show whether they stick.
 import { element } from './dom.js';
 import { Labels } from './labels.js';
+import { t } from './messages.js';
 import { largestOf, number, timeShown } from './units.js';
 
 const reach = 24; // px that the largest relative motion of a usual element takes
@@ -13,19 +14,19 @@ export class Animation {
     this.onframe = onframe;
     this.playing = false;
     this.place = 0; // of the run, 0 to 1
-    this.button = element('button', { type: 'button', class: 'play', 'aria-pressed': 'false' }, '▶ Animate');
+    this.button = element('button', { type: 'button', class: 'play', 'aria-pressed': 'false' }, t('▶ Animate'));
     this.button.addEventListener('click', () => this.toggle());
-    this.scrub = element('input', { type: 'range', min: '0', max: '1000', value: '0', 'aria-label': 'Time' });
+    this.scrub = element('input', { type: 'range', min: '0', max: '1000', value: '0', 'aria-label': t('Time') });
     this.scrub.addEventListener('input', () => {
       this.stop();
       this.place = Number(this.scrub.value) / 1000;
       this.draw();
     });
-    this.speed = element('select', { 'aria-label': 'Speed' }, [2, 4, 8, 16].map((s) => element('option', { value: String(s), selected: s === 8 }, `in ${s} s`)));
+    this.speed = element('select', { 'aria-label': t('Speed') }, [2, 4, 8, 16].map((s) => element('option', { value: String(s), selected: s === 8 }, t('in {s} s', { s }))));
     this.clock = element('output', { class: 'clock' });
     this.legend = element('span', { class: 'legend', hidden: true },
-      element('span', { class: 'key' }, element('span', { class: 'swatch stick' }), 'sticks'),
-      element('span', { class: 'key' }, element('span', { class: 'swatch slip' }), 'slips'));
+      element('span', { class: 'key' }, element('span', { class: 'swatch stick' }), t('sticks')),
+      element('span', { class: 'key' }, element('span', { class: 'swatch slip' }), t('slips')));
     this.host = host;
     host.hidden = true; // until there is something to move
     host.append(this.button, this.scrub, this.speed, this.clock, this.legend);
@@ -84,8 +85,8 @@ export class Animation {
     if (!slider) return;
     const velocity = this.data.column(`${name}.velocity`);
     const sticks = velocity && velocity[Math.min(i, velocity.length - 1)] === 0;
-    node.classList.toggle('sticks', Boolean(sticks));
-    node.classList.toggle('slips', Boolean(velocity) && !sticks);
+    node.classList.toggle(t('sticks'), Boolean(sticks));
+    node.classList.toggle(t('slips'), Boolean(velocity) && !sticks);
   }
 
   toggle() {
@@ -96,7 +97,7 @@ export class Animation {
   start() {
     this.playing = true;
     if (this.place >= 1) this.place = 0;
-    this.button.textContent = '❚❚ Pause';
+    this.button.textContent = t('❚❚ Pause');
     this.button.setAttribute('aria-pressed', 'true');
     let before = performance.now();
     const frame = (now) => {
@@ -111,7 +112,7 @@ export class Animation {
 
   stop() {
     this.playing = false;
-    this.button.textContent = '▶ Animate';
+    this.button.textContent = t('▶ Animate');
     this.button.setAttribute('aria-pressed', 'false');
   }
 }

@@ -4,6 +4,8 @@ import { download, exporters } from './export.js';
 import { firstScene } from './first-scene.js';
 import { Gallery, inOrder } from './gallery.js';
 import { decode, encode } from './link.js';
+import { t } from './messages.js';
+import { showCode } from './qr-dialog.js';
 import { SaveDialog } from './save-dialog.js';
 
 const pause = 400; // ms after a change until it is kept: browsers count how often somebody writes into their history
@@ -37,7 +39,7 @@ export class Files {
 
   // What the address names, or else a scene to begin with. Changes that were never saved are as they were left.
   async openAddress(left) {
-    if (left?.scenes) this.desk.begin(left, 'The netlist is as you left it; it is not saved.');
+    if (left?.scenes) this.desk.begin(left, t('The netlist is as you left it; it is not saved.'));
     else if (await this.openLink()) return true;
     else this.desk.begin({ scenes: [{ text: firstScene, file: 'scene.toml' }] });
     return Boolean(left?.scenes);
@@ -47,13 +49,13 @@ export class Files {
     const [kind, value] = location.hash.slice(1).split(/=(.*)/s);
     try {
       if (kind === 'file' || kind === 'lesson') return await this.openFile(decodeURIComponent(value), false, kind === 'lesson');
-      if (kind !== 'scene') return false;
-      const { scenes, plots } = await decode(value);
+      if (kind !== 'scene' && kind !== 's') return false;
+      const { scenes, plots } = decode(kind, value);
       this.desk.begin({ scenes: scenes.slice(0, 2).map(({ text, file }) => ({ text: String(text), file: String(file) })), plots });
       return true;
     } catch {
       // What the browser says of it (of characters and compression) helps nobody.
-      this.desk.notify('The link cannot be read: a part of it is missing, or was changed on its way. Ask for it once more.');
+      this.desk.notify(t('The link cannot be read: a part of it is missing, or was changed on its way. Ask for it once more.'));
       return false;
     }
   }
@@ -107,9 +109,9 @@ export class Files {
     const { file, version, text } = this.desk.current;
     const here = this.folder.may_be_written;
     return [
-      here && version && { label: `Save as ${file}`, act: () => this.save() },
-      here && { label: 'Save in the folder as …', act: () => this.saving.saveAs({ file, version, text }) },
-      { label: 'Download the netlist', act: () => this.downloadNetlist() },
+      here && version && { label: t('Save as {file}', { file }), act: () => this.save() },
+      here && { label: t('Save in the folder as …'), act: () => this.saving.saveAs({ file, version, text }) },
+      { label: t('Download the netlist'), act: () => this.downloadNetlist() },
     ].filter(Boolean);
   }
 
@@ -128,7 +130,7 @@ export class Files {
     this.nameInAddress(file);
     this.keep();
     desk.showTitle(desk.current.data.scene?.title);
-    desk.answer(`Saved as ${file}.`);
+    desk.answer(t('Saved as {file}.', { file }));
     await this.look();
   }
 
@@ -137,29 +139,39 @@ export class Files {
     const scenes = desk.variants.map(({ text, file }) => ({ text, file }));
     const curves = desk.plots.curvePairs();
     return exporters({ scenes, active: desk.active, curves, schematic: desk.current.data.scene?.schematic ?? '', name: this.name })
-      .map((exporter) => ({ label: exporter.label, act: () => this.export(exporter) }));
+      .map((exporter) => ({ label: exporter.label, act: () => this.export(exporter) }))
+      .concat({ label: t('Link as a QR code'), act: () => this.showCode() });
   }
 
   async export({ make, name }) {
     const { desk } = this;
-    desk.say(`Making ${name} …`);
+    desk.say(t('Making {name} …', { name }));
     try {
       download(await make(), name);
-      desk.answer(`Made ${name}.`);
+      desk.answer(t('Made {name}.', { name }));
     } catch (error) {
-      desk.answer(`Not made: ${error.message}`, true);
+      desk.answer(t('Not made: {why}', { why: error.message }), true);
     }
   }
 
-  async copyLink() {
+  // The address of the page carries the scene from now on.
+  putInAddress() {
     const { variants, plots } = this.desk;
-    const scenes = variants.map(({ text, file }) => ({ text, file }));
-    history.replaceState(history.state, '', `#scene=${await encode({ scenes, plots: plots.state })}`);
+    history.replaceState(history.state, '', `#${encode({ scenes: variants, plots: plots.state })}`);
+  }
+
+  showCode() {
+    this.putInAddress();
+    showCode(location.href);
+  }
+
+  async copyLink() {
+    this.putInAddress();
     try {
       await navigator.clipboard.writeText(location.href);
-      this.desk.answer('The link is copied: it carries the scene.');
+      this.desk.answer(t('The link is copied: it carries the scene.'));
     } catch {
-      this.desk.answer('The address of this page carries the scene.');
+      this.desk.answer(t('The address of this page carries the scene.'));
     }
   }
 }

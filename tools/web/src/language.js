@@ -27,8 +27,7 @@ export function choose(other) {
   try {
     localStorage.setItem(key, other);
   } catch {
-    return false;
+    return; // where nothing can be remembered the page stays in the language of the browser
   }
   location.reload();
-  return true;
 }

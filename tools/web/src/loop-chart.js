@@ -2,6 +2,7 @@
 import uPlot from 'uplot';
 import { apart, axis, Chart, colour, labelOf, read, shownOf, sideways } from './chart.js';
 import { element } from './dom.js';
+import { t } from './messages.js';
 import { largestOf, number, shownIn, timeShown } from './units.js';
 
 // Where a logarithmic axis has its numbers. uPlot's own choice never ends on some ranges that do not begin at a power of ten.
@@ -23,7 +24,7 @@ export class LoopChart extends Chart {
     host.classList.add('chart', 'loop');
     host.tabIndex = 0;
     host.setAttribute('role', 'group');
-    host.setAttribute('aria-label', `${y.quantity} against ${x.quantity}: ${curves.map((curve) => curve.name).join(', ')}`);
+    host.setAttribute('aria-label', t('{y} against {x}: {names}', { y: y.quantity, x: x.quantity, names: curves.map((curve) => curve.name).join(', ') }));
     const log = Boolean(x.log);
     this.sides = [x, y];
     this.curves = curves;
@@ -142,7 +143,7 @@ export class LoopChart extends Chart {
     const [xs, ys] = this.plot.data[k + 1];
     const curve = this.curves[k];
     const unit = curve.time && timeShown(curve.time[0], curve.time.at(-1));
-    const time = unit ? ` at ${number(curve.time[i] / unit.factor, 5)} ${unit.name}` : '';
+    const time = unit ? ` ${t('at {time}', { time: `${number(curve.time[i] / unit.factor, 5)} ${unit.name}` })}` : '';
     this.readout.textContent = `${curve.name}: ${read(this.plot, 'x', xs[i], 5)} ${this.units[0].name}, ${read(this.plot, 'y', ys[i], 5)} ${this.units[1].name}${time}`;
   }
 

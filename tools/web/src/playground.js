@@ -11,8 +11,10 @@ import { firstScene } from './first-scene.js';
 import { Folds } from './folds.js';
 import { helpDialog } from './help.js';
 import { listenToKeys } from './keys.js';
+import { languageChoice } from './language-choice.js';
 import { Lesson } from './lesson.js';
 import { menu } from './menu.js';
+import { t } from './messages.js';
 import { PlotPanel } from './plot-panel.js';
 import { Runner } from './runner.js';
 import { SceneData } from './scene-data.js';
@@ -67,27 +69,27 @@ class Playground {
     const button = (text, act, extra = {}) => element('button', { type: 'button', onclick: act, ...extra }, text);
     this.parts = {};
     this.title = element('h1', {}, 'rheonet');
-    this.compareButton = button('Compare', () => this.compare(), { 'aria-pressed': 'false' });
+    this.compareButton = button(t('Compare'), () => this.compare(), { 'aria-pressed': 'false' });
     this.status = element('p', { class: 'status', role: 'status' });
-    this.themeButton = button('◐', switchTheme, { 'aria-label': 'Light or dark', title: 'Light or dark' });
-    const bar = element('header', { class: 'bar' }, this.title, element('nav', { class: 'actions', 'aria-label': 'Actions' },
-      button('Gallery', () => this.files.gallery.open()),
-      menu('Save', () => this.files.saves()),
-      menu('Export', () => this.files.exports()),
-      button('Link', () => this.files.copyLink()),
-      this.compareButton, this.themeButton,
-      button('?', () => this.help.showModal(), { 'aria-label': 'Help' })));
-    this.choice = element('div', { class: 'variants', role: 'radiogroup', 'aria-label': 'Variant that is edited', hidden: true });
+    this.themeButton = button('◐', switchTheme, { 'aria-label': t('Light or dark'), title: t('Light or dark') });
+    const bar = element('header', { class: 'bar' }, this.title, element('nav', { class: 'actions', 'aria-label': t('Actions') },
+      button(t('Gallery'), () => this.files.gallery.open()),
+      menu(t('Save'), () => this.files.saves()),
+      menu(t('Export'), () => this.files.exports()),
+      button(t('Link'), () => this.files.copyLink()),
+      this.compareButton, languageChoice(), this.themeButton,
+      button('?', () => this.help.showModal(), { 'aria-label': t('Help') })));
+    this.choice = element('div', { class: 'variants', role: 'radiogroup', 'aria-label': t('Variant that is edited'), hidden: true });
     const box = (name, heading, ...content) => element('section', { class: `box ${name}-box`, 'aria-label': heading }, element('h2', { class: 'box-title' }, heading), ...content);
     host.append(bar, element('main', { class: 'desk' },
-      box('editor', 'Netlist', this.choice, part('editor'), part('mistakes')),
+      box('editor', t('Netlist'), this.choice, part('editor'), part('mistakes')),
       // Before the stage: that is the order of the Tab key.
-      box('sliders', 'Sliders', part('sliders')),
+      box('sliders', t('Sliders'), part('sliders')),
       element('div', { class: 'stage' },
-        (this.lesson = box('lesson', 'Question')),
-        box('schematic', 'Schematic', part('drawing'), part('animation')),
-        box('plots', 'Plots', this.status, part('plots')),
-        box('more', 'More', part('sections')))));
+        (this.lesson = box('lesson', t('Question'))),
+        box('schematic', t('Schematic'), part('drawing'), part('animation')),
+        box('plots', t('Plots'), this.status, part('plots')),
+        box('more', t('More'), part('sections')))));
     this.lesson.hidden = true;
     this.toast = element('p', { class: 'toast', hidden: true, 'aria-hidden': 'true' });
     host.append(this.toast);
@@ -99,7 +101,7 @@ class Playground {
   // Part of a page of somebody else: of the tools only a way to the whole playground remains.
   embed(bar) {
     document.body.classList.add('embedded');
-    const link = element('a', { target: '_blank' }, 'Open in the playground');
+    const link = element('a', { target: '_blank' }, t('Open in the playground'));
     const follow = () => (link.href = `${location.origin === 'null' ? 'file://' : location.origin}${location.pathname}${location.hash}`);
     for (const event of ['hashchange', 'popstate']) addEventListener(event, follow);
     follow();
@@ -170,7 +172,7 @@ class Playground {
     if (!data.scene) {
       variant.stale = true;
       this.showStale();
-      if (complete) this.say(data.failed ? data.failed.message : `The netlist has mistakes${variant.data.hasCurves ? '; the plots show what was there before' : ''}.`, true);
+      if (complete) this.say(data.failed ? data.failed.message : variant.data.hasCurves ? t('The netlist has mistakes; the plots show what was there before.') : t('The netlist has mistakes.'), true);
       return;
     }
     if (data.time.length || complete) Object.assign(variant, { data, shown: text });
@@ -186,7 +188,7 @@ class Playground {
     this.later = setTimeout(() => this.showSections(), 200);
     if (data.failed) {
       // Where there are no curves the reason stands in their place.
-      this.say(data.hasCurves ? `The run did not come to its end: ${data.failed.message}` : 'The run did not come to its end.', true);
+      this.say(data.hasCurves ? t('The run did not come to its end: {why}', { why: data.failed.message }) : t('The run did not come to its end.'), true);
       return;
     }
     requestAnimationFrame(() => {
@@ -197,7 +199,7 @@ class Playground {
         this.notice = null;
         return;
       }
-      this.say(`${data.done.statistics.steps} steps, ${runTime(data.done.statistics)}; drawn ${Math.round(took)} ms after the change`);
+      this.say(t('{steps} steps, {time}; drawn {took} ms after the change', { steps: data.done.statistics.steps, time: runTime(data.done.statistics), took: Math.round(took) }));
     });
   }
 
@@ -329,7 +331,7 @@ class Playground {
     const several = this.variants.length > 1;
     this.choice.hidden = !several;
     this.compareButton.setAttribute('aria-pressed', String(several));
-    this.compareButton.textContent = several ? 'End comparison' : 'Compare';
+    this.compareButton.textContent = several ? t('End comparison') : t('Compare');
     this.choice.replaceChildren(...choices(several ? this.variants : [], this.active, (k) => {
       this.edit(k);
       this.choice.querySelectorAll('input')[k].focus();

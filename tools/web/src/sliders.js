@@ -1,5 +1,6 @@
 // A slider for each number of a netlist. What is moved is written into the text of the netlist, which is all there is.
 import { breakable, element } from './dom.js';
+import { t } from './messages.js';
 
 const steps = 400;
 const decimal = /^[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i;
@@ -13,7 +14,7 @@ class Slider {
     this.knob = knob;
     const label = `${knob.group === 'parameters' ? '' : `${knob.group} `}${knob.name}`;
     this.range = element('input', { type: 'range', min: '0', max: String(steps), step: '1', 'aria-label': label });
-    this.number = element('input', { type: 'text', inputmode: 'decimal', 'aria-label': `${label}, value`, size: '6' });
+    this.number = element('input', { type: 'text', inputmode: 'decimal', 'aria-label': t('{name}, value', { name: label }), size: '6' });
     this.range.addEventListener('input', () => this.slide(this.valueAt(Number(this.range.value))));
     this.range.addEventListener('pointerdown', () => (panel.held = this));
     // What is not moved while it is held does not change.
@@ -43,8 +44,8 @@ class Slider {
       this.slide(value);
       if (!this.refused) this.putBack();
     } else {
-      const what = this.knob.unit ? `a number of ${this.knob.unit}` : 'a number';
-      this.refuse(`${text ? `“${text}” is` : 'Nothing is'} not ${what}, such as 2.5 or 1e-3.${text ? ' Units and expressions belong in the netlist.' : ''}`);
+      const what = this.knob.unit ? t('a number of {unit}', { unit: this.knob.unit }) : t('a number');
+      this.refuse(text ? t('“{text}” is not {what}, such as 2.5 or 1e-3. Units and expressions belong in the netlist.', { text, what }) : t('Nothing is not {what}, such as 2.5 or 1e-3.', { what }));
     }
   }
 
@@ -113,7 +114,7 @@ class Slider {
     const found = this.literal();
     if (!found || found !== this.was) {
       this.show();
-      this.refuse('The netlist has changed here; the slider follows as soon as the netlist can be read.');
+      this.refuse(t('The netlist has changed here; the slider follows as soon as the netlist can be read.'));
       return;
     }
     this.accept();
@@ -163,19 +164,19 @@ export class Sliders {
         if (!groups.has(slider.knob.group)) groups.set(slider.knob.group, []);
         groups.get(slider.knob.group).push(slider.row);
       });
-      return [...groups].map(([group, rows]) => element('fieldset', {}, element('legend', {}, breakable(group === 'simulate' ? 'run' : group)), rows));
+      return [...groups].map(([group, rows]) => element('fieldset', {}, element('legend', {}, breakable(group === 'simulate' ? t('run') : group)), rows));
     };
     // A demo says which are worth moving; the others are folded away.
     const asked = this.all.filter(({ knob }) => knob.asked).sort((a, b) => a.knob.asked - b.knob.asked);
     const others = this.all.filter(({ knob }) => !knob.asked);
     if (asked.length) {
-      const fields = element('fieldset', {}, element('legend', {}, 'to move'), asked.map(({ row }) => row));
+      const fields = element('fieldset', {}, element('legend', {}, t('to move')), asked.map(({ row }) => row));
       // Short names leave more room to move in.
       fields.style.setProperty('--name', `${Math.min(10, 2 + Math.max(...asked.map(({ knob }) => knob.name.length)))}ch`);
       this.host.replaceChildren(fields,
-        element('details', {}, element('summary', {}, `All other numbers (${others.length})`), grouped(others)));
+        element('details', {}, element('summary', {}, t('All other numbers ({count})', { count: others.length })), grouped(others)));
     } else this.host.replaceChildren(...grouped(others));
-    if (!this.all.length) this.host.append(element('p', { class: 'note' }, 'The netlist has no numbers to turn.'));
+    if (!this.all.length) this.host.append(element('p', { class: 'note' }, t('The netlist has no numbers to turn.')));
   }
 
   // The texts in the netlist of the numbers with these paths, "parameters.B".
@@ -193,7 +194,7 @@ export class Sliders {
     this.held = null;
     this.all = [];
     this.shape = '';
-    this.host.replaceChildren(element('p', { class: 'note' }, 'The sliders are here as soon as the netlist can be read.'));
+    this.host.replaceChildren(element('p', { class: 'note' }, t('The sliders are here as soon as the netlist can be read.')));
   }
 
   // The text has changed before them.
