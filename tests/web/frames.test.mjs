@@ -1,26 +1,34 @@
 // Pages of others that show the playground in a frame: none may, unless the server is told which.
 import assert from 'node:assert/strict';
 import { spawnSync } from 'node:child_process';
+import { createServer } from 'node:http';
 import { after, before, test } from 'node:test';
 import { bingham, browser, folderWith, program, remove, serve } from './support.mjs';
 
-const school = 'http://school.example';
+// A site of its own: `localhost` is another one than 127.0.0.1, where the playground is.
+let school;
+let pages;
+let shown = '';
 let folder;
 let chromium;
 before(async () => {
   folder = folderWith({ 'bingham.toml': bingham });
   chromium = await browser();
+  pages = createServer((_, response) => response.writeHead(200, { 'Content-Type': 'text/html' }).end(`<!doctype html><iframe width="900" height="700" src="${shown}"></iframe>`));
+  await new Promise((resolve) => pages.listen(0, 'localhost', resolve));
+  school = `http://localhost:${pages.address().port}`;
 });
 after(async () => {
   await chromium.close();
+  pages.close();
   remove(folder);
 });
 
 // A page of the school with the playground of a server in a frame.
 async function framed(options) {
   const server = await serve(folder, ...options);
+  shown = `${server.address}&embed#file=bingham.toml`;
   const page = await chromium.newPage();
-  await page.route(`${school}/`, (route) => route.fulfill({ contentType: 'text/html', body: `<!doctype html><iframe width="900" height="700" src="${server.address}&embed#file=bingham.toml"></iframe>` }));
   await page.goto(`${school}/`);
   return { page, frame: page.frameLocator('iframe'), server, close: async () => {
     await page.close();
@@ -45,7 +53,7 @@ test('a page of the origin that is named shows it in a frame, where it runs', as
   await number.press('Enter');
   await frame.locator('.drawing', { hasText: '3 N·m' }).waitFor();
   const { headers } = await fetch(server.address);
-  assert.match(headers.get('content-security-policy'), /frame-ancestors http:\/\/school\.example$/);
+  assert.match(headers.get('content-security-policy'), new RegExp(`frame-ancestors ${school}$`));
   // What holds anything of the folder needs the token all the same.
   assert.equal((await fetch(`${server.origin}/api/folder`)).status, 401);
   assert.equal((await fetch(`${server.origin}/`)).status, 401);

@@ -64,7 +64,9 @@ json LessonReader::read() {
   json told;
   try {
     const std::optional<TomlValue> document = parse_toml(0, lesson_.sources, diagnostics_);
-    plain_ = read_sent(netlist_, offers_, {.plotted = true});
+    ReadOptions options;
+    options.plotted = true;
+    plain_ = read_sent(netlist_, offers_, options);
     if (document && plain_.scene) {
       TableReader reader(*document, "a lesson");
       const Spot top{0, 1, 1};

@@ -126,8 +126,8 @@ export class Lesson {
     ]);
     this.chartHost = chart;
     this.shown = true;
+    this.judged = false;
     this.draw();
-    this.verdict.append(...prediction.verdict(this.runCurve()));
     this.steps.querySelector('h3').focus({ preventScroll: true });
   }
 
@@ -161,6 +161,9 @@ export class Lesson {
   draw() {
     const { x, y } = this.told.predict;
     if (!this.data.hasCurves || !this.record(y)) return;
+    const isOver = this.data.done || this.data.failed;
+    if (isOver && !this.judged) this.verdict.append(...this.prediction.verdict(this.runCurve()));
+    this.judged ||= isOver;
     const curves = [{ name: t('the run'), ...this.runCurve(), style: 0 }, { name: t('your prediction'), x: this.prediction.curve.x, y: this.prediction.curve.y, style: 1, dash: [6, 4] }];
     if (this.chart) {
       this.chart.update(curves);

@@ -7,7 +7,7 @@ import { number } from './units.js';
 
 // What is measured: `texts(record, third, other)` are measures as `rheonet sweep --measure` names them, `of` makes a number of their values. What
 // needs another record measures the difference of the two, which the netlist then records.
-const difference = 'difference-of-two';
+const difference = 'difference_of_two';
 const measures = {
   magnitude: { label: t('largest magnitude'), texts: (record) => [`max(${record})`, `min(${record})`], of: ([high, low]) => Math.max(Math.abs(high), Math.abs(low)) },
   amplitude: { label: t('amplitude in the last third'), texts: (record, third) => [`max(${record}, from ${third} s)`, `min(${record}, from ${third} s)`], of: ([high, low]) => (high - low) / 2 },
