@@ -268,7 +268,7 @@ test('a run that fails at its start says why where its curves would be', async (
   await page.locator('button', { hasText: 'Compare' }).click();
   await replaced(page, twoMotions);
   await reason.waitFor();
-  assert.match(await reason.textContent(), /^B: there is nothing/);
+  assert.match(await reason.textContent(), /^B: There is nothing/);
   await page.locator('.u-series', { hasText: 'A k1.force' }).waitFor();
   await close();
 });
