@@ -210,7 +210,24 @@ std::optional<TomlValue> parse_toml(int file, const Sources& sources, Diagnostic
   }
 }
 
+namespace {
+
+/// Whether `text` is a value with a unit or an expression ("2.5 N/m", "2*k"), which TOML has no value like. Asked first, because the
+/// parser throws, and an exception costs more than a short run.
+bool is_no_toml(std::string_view text) {
+  const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
+  const bool begins_number = !text.empty() && (is_letter(text[0]) || (text[0] >= '0' && text[0] <= '9') || text[0] == '-' || text[0] == '+');
+  if (!begins_number || text.find('#') != text.npos) return false;
+  for (std::size_t i = 1; i < text.size(); ++i) {
+    if (std::string_view("/*^()%").find(text[i]) != std::string_view::npos || (text[i - 1] == ' ' && is_letter(text[i]))) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
 std::optional<TomlValue> parse_toml_value(std::string_view text, Spot spot) {
+  if (is_no_toml(text)) return {};
   constexpr std::string_view key = "v=";
   const auto shift = [&](auto& self, TomlValue& value) -> void {
     const auto move = [&](Spot& s) {

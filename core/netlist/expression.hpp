@@ -43,6 +43,9 @@ std::variant<Number, TextError> evaluate_expression(std::string_view text, const
 /// Evaluates a value given as a string: "10", "2 in*ozf" (a number, a space, a unit), "inf" (plain), or an expression.
 std::variant<Number, TextError> evaluate_text(std::string_view text, const Environment& environment);
 
+/// The text of a quantity or an expression, multiplied: "2 N/m" becomes "2.2 N/m", "k/2" becomes "(k/2)*1.1".
+std::string multiplied(std::string_view text, double factor);
+
 /// The SI value of `number` as `quantity`, or a dimension error: "expected a torsional stiffness (N*m/rad), found a length
 /// (m)". An angular velocity (rad/s, rpm) used as a frequency is divided by 2 pi. Where cycles or radians may be meant, the
 /// result is an error: 1/s from an expression is no frequency, cycles are no angle and Hz is no angular velocity.

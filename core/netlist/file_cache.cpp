@@ -1,14 +1,37 @@
 #include "core/netlist/file_cache.hpp"
 
+#include <dlfcn.h>
+
 #include <cerrno>
 #include <cstring>
 #include <fstream>
 #include <iterator>
 #include <system_error>
 
+#include "core/netlist/document.hpp"
+
 namespace rheonet {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+/// The table of a MAT file as CSV, by a part of rheonet that is loaded for it: tools/tables/mat.cpp.
+std::optional<std::string> mat_as_csv(const fs::path& file, std::string& why) {
+  using TableText = bool(const char* path, std::string& text, std::string& why);
+  void* const part = ::dlopen("librheonet_mat.so", RTLD_NOW | RTLD_LOCAL);  // stays loaded
+  if (part == nullptr) {
+    const char* const reason = ::dlerror();
+    why = std::string(".mat files need a part of rheonet that is missing: ") + (reason ? reason : "librheonet_mat.so") +
+          "; build rheonet with the Debian package libmatio-dev, or save the table as .csv";
+    return {};
+  }
+  std::string text;
+  if (reinterpret_cast<TableText*>(::dlsym(part, "table_text"))(file.c_str(), text, why)) return text;
+  return {};
+}
+
+}  // namespace
 
 std::optional<std::string> read_text(const fs::path& file, std::string& why) {
   std::error_code ignored;
@@ -16,6 +39,7 @@ std::optional<std::string> read_text(const fs::path& file, std::string& why) {
     why = "it is a folder";
     return {};
   }
+  if (file.extension() == ".mat") return mat_as_csv(file, why);
   errno = 0;
   std::ifstream stream(file, std::ios::binary);
   std::string text;
@@ -34,6 +58,31 @@ std::optional<std::string> FileCache::text_of(const fs::path& file, std::string&
   auto text = read_text(file, why);
   if (text) texts_.emplace(file, *text);
   return text;
+}
+
+fs::path FileCache::canonical(const fs::path& path, std::error_code& failed) {
+  const std::scoped_lock lock(mutex_);
+  const auto known = canonical_.find(path);
+  failed.clear();
+  if (known != canonical_.end()) return known->second;
+  fs::path found = fs::canonical(path, failed);
+  if (!failed) canonical_.emplace(path, found);
+  return found;
+}
+
+std::shared_ptr<const TomlValue> FileCache::document(int file, const Sources& sources, DiagnosticList& diagnostics) {
+  const std::string& text = sources.files[static_cast<std::size_t>(file)].text;
+  {
+    const std::scoped_lock lock(mutex_);
+    if (const auto known = documents_.find({file, text}); known != documents_.end()) return known->second;
+  }
+  const std::size_t told = diagnostics.all().size();
+  std::optional<TomlValue> parsed = parse_toml(file, sources, diagnostics);
+  if (!parsed) return nullptr;
+  const auto document = std::make_shared<const TomlValue>(std::move(*parsed));
+  const std::scoped_lock lock(mutex_);
+  if (diagnostics.all().size() == told) documents_.emplace(std::pair{file, text}, document);
+  return document;
 }
 
 }  // namespace rheonet

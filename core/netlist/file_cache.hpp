@@ -2,25 +2,41 @@
 
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
+#include <system_error>
+#include <utility>
 
 namespace rheonet {
 
-/// The text of a file; absent if it cannot be read; `why` then gives the reason.
+class DiagnosticList;
+struct Sources;
+struct TomlValue;
+
+/// The text of a file; absent if it cannot be read; `why` then gives the reason. A MAT file, which ends in `.mat`, is given as CSV: a
+/// column for each vector, with its name and, in files of rheonet, its unit. Of vectors of several lengths the most frequent length counts.
 std::optional<std::string> read_text(const std::filesystem::path& file, std::string& why);
 
-/// Caches the files of a scene that is read many times. Each file is read from disk once, so that every reading sees the
-/// same version even if the file changes meanwhile. Thread-safe.
+/// Caches the files of a scene that is read many times. Each file is read from disk and parsed once, so that every reading sees the
+/// same version even if the file changes meanwhile, and costs little beside a short run. Thread-safe. Failures are not cached.
 class FileCache {
  public:
-  /// As read_text. A failed reading is not cached.
+  /// As read_text.
   std::optional<std::string> text_of(const std::filesystem::path& file, std::string& why);
+
+  /// As std::filesystem::canonical.
+  std::filesystem::path canonical(const std::filesystem::path& path, std::error_code& failed);
+
+  /// As parse_toml: nullptr after a mistake.
+  std::shared_ptr<const TomlValue> document(int file, const Sources& sources, DiagnosticList& diagnostics);
 
  private:
   std::mutex mutex_;
   std::map<std::filesystem::path, std::string> texts_;
+  std::map<std::filesystem::path, std::filesystem::path> canonical_;
+  std::map<std::pair<int, std::string>, std::shared_ptr<const TomlValue>> documents_;  ///< by number and text of a file
 };
 
 }  // namespace rheonet

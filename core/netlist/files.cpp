@@ -53,19 +53,19 @@ std::optional<Files::Found> Files::find_on_disk(const TomlValue& name, const Pla
   folders.insert(folders.end(), library_.begin(), library_.end());
   for (const fs::path& folder : folders) {
     std::error_code failed;
-    const fs::path base = fs::canonical(folder.empty() ? fs::path(".") : folder, failed);
+    const fs::path base = canonical(folder.empty() ? fs::path(".") : folder, failed);
     if (failed) continue;
-    const fs::path canonical = fs::canonical(base / normal, failed);
+    const fs::path found = canonical(base / normal, failed);
     if (failed) continue;
-    if (!within(canonical, base)) {
+    if (!within(found, base)) {
       diagnostics.error(name.spot, "`" + name.text + "` is a link that leads outside the netlist's folder", rule);
       return {};
     }
-    if (!fs::is_regular_file(canonical, failed)) {
+    if (!fs::is_regular_file(found, failed)) {
       diagnostics.error(name.spot, "`" + name.text + "` is no file");
       return {};
     }
-    return Found{(folder / normal).lexically_normal(), canonical};
+    return Found{(folder / normal).lexically_normal(), found};
   }
   diagnostics.error(name.spot, "there is no file `" + name.text + "`", rule);
   return {};

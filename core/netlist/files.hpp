@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -40,6 +41,18 @@ class Files {
 
   /// Reads a whole file and adds it; a failure is a mistake at `spot`.
   std::optional<int> read(const Found& found, Sources::Role role, Spot spot, DiagnosticList& diagnostics);
+
+  /// Parses a file of Sources; see parse_toml.
+  std::optional<TomlValue> document(int file, DiagnosticList& diagnostics) const {
+    if (!cache_) return parse_toml(file, sources_, diagnostics);
+    const std::shared_ptr<const TomlValue> shared = cache_->document(file, sources_, diagnostics);
+    return shared ? std::optional(*shared) : std::nullopt;
+  }
+
+  /// As std::filesystem::canonical.
+  std::filesystem::path canonical(const std::filesystem::path& path, std::error_code& failed) const {
+    return cache_ ? cache_->canonical(path, failed) : std::filesystem::canonical(path, failed);
+  }
 
   const Sources& sources() const { return sources_; }
   const std::string& text(int file) const { return sources_.files[static_cast<std::size_t>(file)].text; }

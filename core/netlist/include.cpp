@@ -53,7 +53,7 @@ class Includer {
     }
     const auto file = context_.files.read(*found, Sources::Role::included, name.spot, diagnostics);
     if (!file) return;
-    auto document = parse_toml(*file, context_.files.sources(), diagnostics);
+    auto document = context_.files.document(*file, diagnostics);
     if (!document) return;
     open_.push_back({found->canonical, found->shown});
     read(*document);

@@ -3,14 +3,15 @@
 #include <algorithm>
 
 #include "core/netlist/characters.hpp"
+#include "core/netlist/expression.hpp"
 #include "core/netlist/signals.hpp"
 
 namespace rheonet {
 
 namespace {
 
-/// Splits PATH= off; returns its length with `=`, 0 if absent. `before`: characters of the option before it.
-std::size_t read_path(std::string_view text, int line, std::size_t before, std::vector<Override::Part>& path) {
+/// Splits PATH= or PATH*= off; returns its length with `=`, 0 if absent. `before`: characters of the option before it.
+std::size_t read_path(std::string_view text, int line, std::size_t before, std::vector<Override::Part>& path, bool& multiplies) {
   std::string name;
   std::size_t begin = 0;
   char quote = '\0';
@@ -31,6 +32,8 @@ std::size_t read_path(std::string_view text, int line, std::size_t before, std::
       quote = c;
     } else if (c == '.') {
       finish(i);
+    } else if (c == '*' && text.substr(i).starts_with("*=")) {
+      multiplies = true;
     } else if (c == '=') {
       finish(i);
       return i + 1;
@@ -50,6 +53,19 @@ bool excludes(const std::string& a, const std::string& b) {
   return (is_shape(a) && is_shape(b)) || (a == "every" && b == "points") || (a == "points" && b == "every");
 }
 
+/// Multiplies a number, a quantity or an expression of the netlist.
+void multiply(TomlValue& value, const ActiveOverride& active, DiagnosticList& diagnostics) {
+  const double factor = active.override->value.number;
+  if (value.kind == TomlValue::Kind::number) {
+    value.number *= factor;
+  } else if (value.is_string()) {
+    value.text = multiplied(value.text, factor);
+  } else {
+    diagnostics.error(active.override->path.back().spot, "`" + path_to(active) + "` is " + describe(value) + ", which cannot be multiplied",
+                      "name one number of it, a quantity or an expression");
+  }
+}
+
 }  // namespace
 
 std::deque<Override> read_overrides(const std::vector<std::string>& texts, const std::vector<std::string>& origins, Sources& sources,
@@ -63,13 +79,13 @@ std::deque<Override> read_overrides(const std::vector<std::string>& texts, const
     sources.command_line.push_back(option + text);
     const int line = static_cast<int>(sources.command_line.size());
     Override override;
-    const std::size_t begin = read_path(text, line, before, override.path);
+    const std::size_t begin = read_path(text, line, before, override.path, override.multiplies);
     const bool nameless =
         std::any_of(override.path.begin(), override.path.end(), [](auto& p) { return p.name.empty(); });
     if (begin == 0 || nameless) {
       diagnostics.error({Spot::command_line, line, 1 + static_cast<int>(before)},
                      "expected PATH=VALUE, found `" + text + "`",
-                     "for instance --set k1.stiffness=\"2 N/m\"");
+                     "for instance --set k1.stiffness=\"2 N/m\", or --set k1.stiffness*=2 for twice the value");
       continue;
     }
     const std::string_view value = std::string_view(text).substr(begin);
@@ -80,6 +96,10 @@ std::deque<Override> read_overrides(const std::vector<std::string>& texts, const
       override.value.kind = TomlValue::Kind::string;
       override.value.text = value;
       override.value.spot = spot;
+    }
+    if (override.multiplies && override.value.kind != TomlValue::Kind::number) {
+      diagnostics.error(spot, "expected a number after `*=`, found " + describe(override.value), "for instance --set k1.stiffness*=1.1");
+      continue;
     }
     overrides.push_back(std::move(override));
   }
@@ -103,6 +123,12 @@ void apply(const ActiveOverride& active, TomlValue& table, DiagnosticList& diagn
     }
 
     TomlEntry* entry = at->find(part.name);
+    if (!entry && active.override->multiplies) {
+      std::vector<std::string> known;
+      for (const TomlEntry& e : at->entries) known.push_back(e.key);
+      diagnostics.error(part.spot, "the netlist gives no `" + part.name + "` that could be multiplied", did_you_mean(part.name, known, "give it a value: --set PATH=VALUE"));
+      return;
+    }
     if (!entry) {
       std::erase_if(at->entries, [&](const TomlEntry& e) { return excludes(e.key, part.name); });
       at->entries.push_back({part.name, part.spot, {}});
@@ -111,7 +137,13 @@ void apply(const ActiveOverride& active, TomlValue& table, DiagnosticList& diagn
     }
     at = &entry->value;
   }
-  *at = active.override->value;
+  if (active.override->multiplies) {
+    ActiveOverride whole = active;
+    while (!whole.at_end()) whole = whole.deeper();
+    multiply(*at, whole, diagnostics);
+  } else {
+    *at = active.override->value;
+  }
 }
 
 }  // namespace rheonet

@@ -8,7 +8,7 @@
 
 namespace rheonet {
 
-/// One `--set PATH=VALUE`.
+/// One `--set PATH=VALUE`, or `--set PATH*=FACTOR`.
 struct Override {
   struct Part {
     std::string name;
@@ -16,6 +16,7 @@ struct Override {
   };
   std::vector<Part> path;
   TomlValue value;
+  bool multiplies = false;  ///< the value that is there, by the number `value`
 };
 
 /// An override on its way down to its target; `depth` is the index of the next part of its path.
@@ -38,7 +39,7 @@ std::deque<Override> read_overrides(const std::vector<std::string>& texts, const
 std::string path_to(const ActiveOverride& active);
 
 /// Sets the value named by the rest of the override's path in `table`, adding missing keys. A part of the path that is
-/// present but no table is a mistake.
+/// present but no table is a mistake. So is what cannot be multiplied by a factor: a number, a quantity and an expression can.
 void apply(const ActiveOverride& active, TomlValue& table, DiagnosticList& diagnostics);
 
 }  // namespace rheonet

@@ -203,4 +203,14 @@ std::variant<double, TextError> as_quantity(const Number& number, Quantity quant
   return number.value;
 }
 
+std::string multiplied(std::string_view text, double factor) {
+  text = without_spaces_before(text);
+  const std::optional<Leading> leading = leading_number(text);
+  if (leading && leading->in_range) {
+    const std::string_view rest = without_spaces_before(leading->rest);
+    if (rest.empty() || begins_unit(rest)) return fmt::format("{:.17g}{}", leading->value * factor, leading->rest);
+  }
+  return fmt::format("({})*{:.17g}", text, factor);
+}
+
 }  // namespace rheonet

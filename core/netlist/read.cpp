@@ -51,7 +51,7 @@ class Reader {
     std::string why;
     std::error_code failed;
     if (auto text = files_.text_of(file, why))
-      read(file, std::move(*text), file.parent_path(), fs::canonical(file, failed));
+      read(file, std::move(*text), file.parent_path(), files_.canonical(file, failed));
     else
       refuse(file, why);
   }
@@ -60,7 +60,7 @@ class Reader {
     const int file = files_.add(std::move(name), std::move(text), std::move(folder));
     try {
       overrides_ = read_overrides(options_.overrides, options_.origins, result_.sources, diagnostics_);
-      if (auto document = parse_toml(file, result_.sources, diagnostics_)) {
+      if (auto document = files_.document(file, diagnostics_)) {
         document_ = std::move(*document);
         read_document(file, canonical);
       }

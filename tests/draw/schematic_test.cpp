@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <regex>
 
 #include "core/network/component.hpp"
 #include "tests/analytic/random_tree.hpp"
@@ -356,6 +357,39 @@ TEST_CASE("a limiter says that it limits to both sides, or to one") {
   };
   CHECK(contains(texts("upper = 0.3"), "|±300 mm/s|"));
   CHECK(contains(texts("upper = 0.3, lower = 0.1"), "|U = 300 mm/s|"));
+}
+
+TEST_CASE("the wires of a node are straight pieces that meet at corners and branches alone") {
+  // A row that goes on below, parallel parts, and what hangs from a node.
+  const Scene scene = scene_from(zener + "long = { type = \"spring\", between = [\"mid\", \"tail\"], stiffness = 3 }\nweight = { type = \"mass\", at = \"tail\", mass = 1 }\n" + servo);
+  const std::string text = svg(drawn(scene), scene);
+  const std::regex wire("data-node=\"([^\"]*)\" d=\"M([-0-9.]+) ([-0-9.]+)L([-0-9.]+) ([-0-9.]+)\"");
+  struct Piece { std::string node; bool horizontal; double at, low, high; };
+  std::vector<Piece> pieces;
+  for (std::sregex_iterator found(text.begin(), text.end(), wire), end; found != end; ++found) {
+    const double x1 = std::stod((*found)[2]), y1 = std::stod((*found)[3]), x2 = std::stod((*found)[4]), y2 = std::stod((*found)[5]);
+    CHECK((x1 == x2) != (y1 == y2));
+    pieces.push_back(y1 == y2 ? Piece{(*found)[1], true, y1, std::min(x1, x2), std::max(x1, x2)} : Piece{(*found)[1], false, x1, std::min(y1, y2), std::max(y1, y2)});
+  }
+  REQUIRE(pieces.size() >= 8);
+  for (const Piece& a : pieces)
+    for (const Piece& b : pieces)
+      if (&a != &b && a.node == b.node && a.horizontal == b.horizontal && std::abs(a.at - b.at) < 0.05) {
+        CAPTURE(a.node);
+        CHECK((a.high < b.low || b.high < a.low));
+      }
+}
+
+TEST_CASE("a force or motion stands in the middle of its texts") {
+  for (const char* domain : {"translation", "rotation"}) {
+    const Scene scene = scene_from(domain == std::string("rotation")
+      ? "domain = \"rotation\"\n[elements]\ndrive_with_a_long_name = { type = \"torque\", at = \"end\", torque = \"40 N*m\" }\nm = { type = \"inertia\", at = \"end\", inertia = 1 }\n"
+      : "[elements]\ndrive_with_a_long_name = { type = \"force\", at = \"end\", force = \"40 N\" }\nm = { type = \"mass\", at = \"end\", mass = 1 }\n");
+    const Picture picture = drawn(scene);
+    const Mark mark = marks_of(picture, scene, {"drive_with_a_long_name"}).front();
+    for (const Label& label : picture.labels)
+      if (label.text.starts_with("drive_with") || label.text.starts_with("40 N")) CHECK(label.at.x == doctest::Approx(middle(mark)));
+  }
 }
 
 TEST_CASE("an SVG is well-formed XML that names each element and each node, and is the same each time") {

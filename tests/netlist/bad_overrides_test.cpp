@@ -6,6 +6,42 @@ namespace rheonet::test {
 
 TEST_CASE("bad netlists: --set") {
   check_all({
+      {"a multiplied value that the netlist does not give",
+       R"~(
+[elements]
+k1 = { type = "spring", between = ["a", "ground"], stiffness = 1 }
+)~",
+       R"~(
+command line: error: the netlist gives no `stifness` that could be multiplied
+      | --set k1.stifness*=3
+      |          ^
+  did you mean `stiffness`?
+)~",
+       {R"~(k1.stifness*=3)~"}},
+      {"a table that is multiplied",
+       R"~(
+[elements]
+drive = { type = "motion", at = "a", velocity = { step = 3, time = 1 } }
+)~",
+       R"~(
+command line: error: `drive.velocity` is a table, which cannot be multiplied
+      | --set drive.velocity*=3
+      |             ^
+  name one number of it, a quantity or an expression
+)~",
+       {R"~(drive.velocity*=3)~"}},
+      {"a factor that is no number",
+       R"~(
+[elements]
+k1 = { type = "spring", between = ["a", "ground"], stiffness = 1 }
+)~",
+       R"~(
+command line: error: expected a number after `*=`, found the string "3 N/m"
+      | --set k1.stiffness*=3 N/m
+      |                     ^
+  for instance --set k1.stiffness*=1.1
+)~",
+       {R"~(k1.stiffness*=3 N/m)~"}},
       {"an unknown element",
        R"~(
 [elements]
@@ -62,7 +98,7 @@ k1 = { type = "spring", between = ["a", "ground"], stiffness = 1 }
 command line: error: expected PATH=VALUE, found `k1.stiffness`
       | --set k1.stiffness
       |       ^
-  for instance --set k1.stiffness="2 N/m"
+  for instance --set k1.stiffness="2 N/m", or --set k1.stiffness*=2 for twice the value
 )~",
        {R"~(k1.stiffness)~"}},
       {"an empty part of a path",
@@ -74,7 +110,7 @@ k1 = { type = "spring", between = ["a", "ground"], stiffness = 1 }
 command line: error: expected PATH=VALUE, found `k1..stiffness=3`
       | --set k1..stiffness=3
       |       ^
-  for instance --set k1.stiffness="2 N/m"
+  for instance --set k1.stiffness="2 N/m", or --set k1.stiffness*=2 for twice the value
 )~",
        {R"~(k1..stiffness=3)~"}},
       {"a key of a number",

@@ -58,6 +58,9 @@ TEST_CASE("--set: values of elements, wherever they are") {
   };
   check("single.stiffness=50", "single: spring a-b 5 0", "single: spring a-b 50 0");
   check("elements.single.stiffness=50", "single: spring a-b 5 0", "single: spring a-b 50 0");
+  check("single.stiffness*=0.5", "single: spring a-b 5 0", "single: spring a-b 2.5 0");
+  check("g.c.damping*=2", "g.c: dashpot g.node1-b 3 1", "g.c: dashpot g.node1-b 6 1");
+  check("chain.1.stiffness*=3", "chain.1: spring chain.node1-b 2 0", "chain.1: spring chain.node1-b 6 0");
   check("single.stiffness=5 N/mm", "single: spring a-b 5 0", "single: spring a-b 5000 0");
   check("single.stiffness=\"2*B\"", "single: spring a-b 5 0", "single: spring a-b 6 0");
   check("single.rest=0.5", "single: spring a-b 5 0", "single: spring a-b 5 0.5");
@@ -128,6 +131,36 @@ TEST_CASE("--set: a parameter that the file leaves to the command line") {
   const std::string open = "[elements]\nk = { type = \"spring\", between = [\"a\", \"b\"], stiffness = \"2*K\" }\n";
   CHECK_FALSE(read(open).scene);
   CHECK(elements_of(with(open, {"parameters.K=3 N/m"})) == "k: spring a-b 6 0\n");
+}
+
+// Values with a unit and expressions are told from TOML before it is parsed: nothing that is TOML may be taken for one.
+TEST_CASE("--set: a value is TOML if it can be, and else text") {
+  const auto damping = [](const std::string& value) { return with(netlist, {"parameters.B=" + value}).elements[3].values[0]; };
+  for (const auto& [value, expected] : std::initializer_list<std::pair<std::string, double>>{
+           {"7", 7}, {"+7.5", 7.5}, {"0.5e1", 5}, {"1_000", 1000}, {"0x1f", 31}, {"7 # 8 N*s/m", 7}, {"'7 N*s/m'", 7}, {"\"2*3\"", 6},
+           {"7 N*s/m", 7}, {"7000 mN*s/m", 7}, {"2*3", 6}, {"6/2", 3}, {"2^3", 8}, {"sqrt(4)", 2}, {"max(1, 2)", 2}}) {
+    CAPTURE(value);
+    CHECK(damping(value) == doctest::Approx(expected));
+  }
+  CHECK(messages(read(netlist, {.overrides = {"parameters.B=1979-05-27 07:32:00"}})).find("a date or time") != std::string::npos);
+}
+
+TEST_CASE("a cache of files gives the same scenes, whatever the overrides were before, and the same mistakes") {
+  FileCache cache;
+  const auto read_both = [&cache](const std::string& text, const std::string& override) {
+    return std::pair{read(text, {.overrides = {override}, .cache = &cache}), read(text, {.overrides = {override}})};
+  };
+  for (const char* const override : {"parameters.B=5", "g.c.damping=7", "elements.single.stiffness=9", "parameters.B=5"}) {
+    const auto [cached, fresh] = read_both(netlist, override);
+    REQUIRE(cached.scene);
+    CHECK(elements_of(*cached.scene) == elements_of(*fresh.scene));
+    CHECK(elements_of(*cached.scene) != unchanged);
+  }
+  for (int k = 0; k < 2; ++k) {
+    const auto [cached, fresh] = read_both(netlist + "[oops\n", "parameters.B=5");
+    CHECK_FALSE(cached.scene);
+    CHECK(messages(cached) == messages(fresh));
+  }
 }
 
 }  // namespace rheonet::test

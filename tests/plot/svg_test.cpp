@@ -144,6 +144,39 @@ TEST_CASE("a decay on a logarithmic axis is a straight line of two points") {
   CHECK(contains(text, ">0.01<"));
 }
 
+TEST_CASE("a curve all of whose points are one is drawn as a mark, and others are not") {
+  const auto marks = [](const std::vector<Point>& points) {
+    Look look;
+    look.logarithmic_x = look.logarithmic_y = true;
+    const std::string text = drawn({curve("a", velocity, force, points)}, look);
+    return contains(text, "<circle");
+  };
+  CHECK(marks({{2.6, 0.013}}));
+  CHECK(marks({{2.6, 0.013}, {2.6, 0.013}, {2.6, 0.013}}));
+  CHECK_FALSE(marks({{2.6, 0.013}, {2.6, 0.013}, {2.7, 0.013}}));
+}
+
+TEST_CASE("curves of one quantity with different numbers of a panel share none") {
+  Measured a = curve("a", seconds, position, {{0, 1}, {1, 2}}), b = curve("b", seconds, position, {{0, 1}, {1, 2}});
+  std::vector<std::string> notes;
+  CHECK(compose({a, b}, {}, notes).panels.size() == 1);
+  b.panel = 1;
+  CHECK(compose({a, b}, {}, notes).panels.size() == 2);
+}
+
+TEST_CASE("a curve has the style and the units that it is given") {
+  Measured angle = curve("a", seconds, measure("angular velocity", "rad/s"), {{0, 1}, {0.5, 104.719755}});
+  CHECK(contains(drawn({angle}), "angular velocity [rad/s]"));
+  angle.style = Style{"#123456", "9 4"};
+  angle.x_unit = Shown{"ms", 1e-3};
+  angle.y_unit = Shown{"rpm", 0.104719755};
+  const std::string text = drawn({angle});
+  for (const char* said : {"stroke=\"#123456\"", "stroke-dasharray=\"9 4\"", "time [ms]", "angular velocity [rpm]", ">1000<", ">500<"}) {
+    CAPTURE(said);
+    CHECK(contains(text, said));
+  }
+}
+
 TEST_CASE("a constant, a single point and a range far from 0 have axes too") {
   for (const std::vector<Point>& points : {std::vector<Point>{{0, 4}, {1, 4}},
                                            {{2, 0}},

@@ -29,9 +29,11 @@ TEST_CASE("ticks of a linear axis are at round numbers, on both sides of 0, and 
 
 TEST_CASE("numbers of many digits are powers of ten") {
   CHECK(labels(linear_ticks(0, 99'999, 3)) == "0 20000 40000 60000 80000");
-  CHECK(labels(linear_ticks(0, 100'000, 4)) == "0 2·10^4 4·10^4 6·10^4 8·10^4 1.0·10^5");
+  CHECK(labels(linear_ticks(0, 100'000, 4)) == "0 2·10^4 4·10^4 6·10^4 8·10^4 10·10^4");
   CHECK(labels(linear_ticks(-2e-5, 2e-5, 3)) == "-0.00002 -0.00001 0 0.00001 0.00002");
   CHECK(labels(linear_ticks(-2e-6, 2e-6, 3)) == "-2·10^-6 -10^-6 0 10^-6 2·10^-6");
+  // All along an axis the same power.
+  CHECK(labels(linear_ticks(8e-7, 1.6e-6, 4)) == "0.8·10^-6 1.0·10^-6 1.2·10^-6 1.4·10^-6 1.6·10^-6");
 }
 
 TEST_CASE("any range has ticks: 1, 2 or 5 times a power of ten apart, at least three, and not too many") {
@@ -61,6 +63,7 @@ TEST_CASE("ticks of a logarithmic axis are at powers of ten, with small ones bet
   CHECK(labels(logarithmic_ticks(3e-5, 2e-4, 8)) ==
         "0.00004 0.00006 0.00008 0.00010 0.00012 0.00014 0.00016 0.00018 0.00020");
   CHECK(labels(logarithmic_ticks(3, 99, 8)) == ". . 5 . . . . 10 20 . . 50 . . . .");
-  CHECK(labels(logarithmic_ticks(1e-5, 1e7, 4)) == ". 10^-4 . 0.01 . 1 . 100 . 10^4 . 10^6 .");
+  CHECK(labels(logarithmic_ticks(1e-5, 1e7, 4)) == ". 10^-4 . 10^-2 . 1 . 10^2 . 10^4 . 10^6 .");
+  CHECK(labels(logarithmic_ticks(1e-4, 9e-3, 8)) == "10^-4 2·10^-4 . . 5·10^-4 . . . . 10^-3 2·10^-3 . . 5·10^-3 . . . .");
   CHECK(labels(logarithmic_ticks(1e-300, 1e300, 4)) == "10^-300 10^-200 10^-100 1 10^100 10^200 10^300");
 }

@@ -11,6 +11,8 @@ import numpy as np
 import pandas
 import pytest
 
+import rheonet as package
+
 RHEONET = os.environ["RHEONET"]
 
 SCENE = """
@@ -142,3 +144,60 @@ def test_an_interrupted_run_keeps_its_rows(rheonet, ending):
     times = netcdf(path).time.values if ending == "nc" else mat(path)["time"]
     assert len(times) == rows > 100
     np.testing.assert_allclose(times, np.arange(rows) * 0.001, rtol=1e-12)
+
+
+PULLED = """
+[elements]
+f1 = { type = "force", at = "a", force = { table = "rows.mat"%s } }
+c1 = { type = "dashpot", between = ["a", "ground"], damping = "1 N*s/m" }
+[simulate]
+stop = 1
+output = { points = 11 }
+record = ["f1.force"]
+"""
+
+
+def pulled(rheonet, columns, status=0):
+    (rheonet.folder / "pulled.toml").write_text(PULLED % columns)
+    return rheonet("run", "pulled.toml", "-q", status=status)
+
+
+def test_a_table_of_a_mat_file_is_that_of_the_csv_file(rheonet):
+    rheonet("run", "scene.toml", "-q", "-o", "rows.mat")
+    rheonet("run", "scene.toml", "-q", "-o", "rows.csv")
+    columns = ', columns = ["time", "k1.force"]'
+    from_mat = pulled(rheonet, columns).stdout
+    (rheonet.folder / "csv.toml").write_text((PULLED % columns).replace("rows.mat", "rows.csv"))
+    assert from_mat == rheonet("run", "csv.toml", "-q").stdout
+    assert len(set(from_mat.splitlines())) > 5
+    # The columns have units: a position is no force.
+    refused = pulled(rheonet, ', columns = ["time", "a.position"]', 2).stderr
+    assert "expected a force (N), found a length (m)" in refused
+    (rheonet.folder / "pulled.toml").write_text(PULLED % columns)
+    in_process = package.load(rheonet.folder / "pulled.toml").run()
+    np.testing.assert_array_equal(in_process["f1.force"], csv(from_mat)["f1.force"])
+
+
+def test_tables_of_mat_files_from_elsewhere(rheonet):
+    io_ = pytest.importorskip("scipy.io")
+    rheonet("run", "scene.toml", "-q", "-o", "probe.mat")  # skips without the part for MAT files
+    t = np.linspace(0, 1, 11)
+    io_.savemat(rheonet.folder / "rows.mat", {"t": t, "load": (10 * t).astype("int16"), "remark": "measured", "rate": 50.0})
+    rows = csv(pulled(rheonet, ', columns = ["t", "load"]').stdout)
+    np.testing.assert_allclose(rows["f1.force"], np.trunc(10 * t), atol=1e-12)
+    io_.savemat(rheonet.folder / "rows.mat", {"curve": np.column_stack([t, 3 * t])})
+    rows = csv(pulled(rheonet, "").stdout)
+    np.testing.assert_allclose(rows["f1.force"], 3 * t, atol=1e-12)
+    assert "no column `lod`" in pulled(rheonet, ', columns = ["curve_1", "lod"]', 2).stderr
+    assert "curve_1` and `curve_2" in pulled(rheonet, ', columns = ["curve_1", "lod"]', 2).stderr
+
+
+def test_a_mat_file_that_is_no_table_is_refused(rheonet):
+    io_ = pytest.importorskip("scipy.io")
+    rheonet("run", "scene.toml", "-q", "-o", "probe.mat")
+    io_.savemat(rheonet.folder / "rows.mat", {"remark": "nothing else"})
+    assert "it has no vector of numbers" in pulled(rheonet, "", 2).stderr
+    (rheonet.folder / "rows.mat").write_text("time,force\n0,1\n")
+    assert "`rows.mat` cannot be read: it is no MAT file" in pulled(rheonet, "", 2).stderr
+    io_.savemat(rheonet.folder / "rows.mat", {"t": [0.0, 2.0, 1.0], "f": [1.0, 2.0, 3.0]})
+    assert "must not decrease" in pulled(rheonet, ', columns = ["t", "f"]', 2).stderr

@@ -35,7 +35,18 @@ def test_the_stubs_name_everything():
     stubs = (PAGE.parent / "rheonet/__init__.pyi").read_text()
     for name in rheonet.__all__:
         assert re.search(rf"\b(def|class) {name}\b", stubs), name
-    for public in (rheonet.Scene, rheonet.Result):
-        for name in vars(public):
+    for public in (getattr(rheonet, name) for name in rheonet.__all__):
+        if not isinstance(public, type):
+            continue
+        stub = re.search(rf"^class {public.__name__}\b.*?(?=^\S)", stubs + "\nend", re.MULTILINE | re.DOTALL)[0]
+        for name in vars(public) | getattr(public, "__annotations__", {}):
             if not name.startswith("_") or name in ("__getitem__", "__len__", "__iter__"):
-                assert re.search(rf"\bdef {name}\b", stubs), name
+                assert re.search(rf"\bdef {name}\(|^    {name}:", stub, re.MULTILINE), f"{public.__name__}.{name}"
+
+
+def test_everything_public_has_a_docstring():
+    for public in (getattr(rheonet, name) for name in rheonet.__all__):
+        assert public.__doc__, public
+        for name, member in vars(public).items() if isinstance(public, type) else ():
+            if not name.startswith("_") and (callable(member) or isinstance(member, property)):
+                assert member.__doc__, f"{public.__name__}.{name}"

@@ -1,15 +1,36 @@
 """Data frames, data sets, sweeps, and what Jupyter shows."""
 
+import base64
+import os
+import re
 import signal
+import subprocess
 import threading
 import time
 import xml.etree.ElementTree
 
 import numpy as np
+import pandas
 import pytest
 
 import rheonet
 from test_scene import FRICTION, OSCILLATOR, endless, k, x0
+
+SPRINGS = """
+[elements]
+m1 = { type = "mass", at = "a", mass = "2 kg" }
+k1 = { type = "spring", between = ["a", "ground"], stiffness = "200 N/m" }
+[nodes]
+a = { position = "1 mm", velocity = "20 mm/s" }
+[simulate]
+stop = 2
+output = { points = 2 }
+record = ["k1.force"]
+"""
+
+
+def shown_svg(scene):
+    return base64.b64decode(re.search("base64,([^\"]*)", scene._repr_html_())[1]).decode()
 
 
 def test_a_data_frame():
@@ -83,7 +104,7 @@ def test_an_explanation_is_data():
 
 def test_jupyter_shows_schematic_and_table():
     scene = rheonet.load(OSCILLATOR)
-    drawing = xml.etree.ElementTree.fromstring(scene._repr_svg_())
+    drawing = xml.etree.ElementTree.fromstring(shown_svg(scene))
     assert drawing.tag.endswith("svg") and "k1" in "".join(drawing.itertext())
     table = scene.run()._repr_html_()
     xml.etree.ElementTree.fromstring(table)
@@ -100,3 +121,33 @@ def test_a_netlist_as_a_dictionary_points_to_the_entry():
     assert (error.file, error.line) == ("<dictionary>", 7)
     assert "dashpot" in error.hint and '"d1" = { "type" = "dashpod"' in str(error)
     assert rheonet.load({**OSCILLATOR, "title": "Öl, \"heiß\" \\ 😀"}).title == "Öl, \"heiß\" \\ 😀"
+
+
+def test_drawn_points_are_those_of_the_command(tmp_path):
+    (tmp_path / "scene.toml").write_text(SPRINGS)
+    vary = {"k1.stiffness": "normal(200 N/m, 5 %)", "m1.mass": "1 kg:2 kg:log"}
+    words = [f"{path}={distribution}" for path, distribution in vary.items()]
+    for kind, more in (("random", ["--correlate", "k1.stiffness,m1.mass=0.5"]), ("latin", []), ("sobol", [])):
+        command = ["sweep", "scene.toml", "--vary", *words, f"--{kind}", "16", "--seed", "7", *more, "--measure", "max(k1.force)", "-q", "-o", "drawn.csv"]
+        subprocess.run([os.environ["RHEONET"], *command], cwd=tmp_path, check=True)
+        rows = pandas.read_csv(tmp_path / "drawn.csv", float_precision="round_trip")
+        correlations = {("k1.stiffness", "m1.mass"): 0.5} if more else {}
+        data = rheonet.loads(SPRINGS).sample(vary, 16, "max(k1.force)", kind=kind, seed=7, correlations=correlations)
+        assert data.sizes == {"run": 16} and data["m1.mass"].units == "kg" and data["max(k1.force)"].units == "N"
+        np.testing.assert_array_equal(data["k1.stiffness"], rows["k1.stiffness [N/m]"])
+        np.testing.assert_array_equal(data["m1.mass"], rows["m1.mass [kg]"])
+        np.testing.assert_array_equal(data["max(k1.force)"], rows["max(k1.force) [N]"])
+
+
+def test_a_wrong_distribution_is_said():
+    scene = rheonet.loads(SPRINGS)
+    with pytest.raises(ValueError, match="gauss"):
+        scene.sample({"k1.stiffness": "gauss(200, 5)"}, 4, "max(k1.force)")
+    with pytest.raises(ValueError, match="'random', 'latin' or 'sobol'"):
+        scene.sample({"k1.stiffness": "100:200"}, 4, "max(k1.force)", kind="halton")
+    with pytest.raises(ValueError, match="at least one measure"):
+        scene.sample({"k1.stiffness": "100:200"}, 4, [])
+    with pytest.raises(ValueError, match="count must be at least 1"):
+        scene.sample({"k1.stiffness": "100:200"}, 0, "max(k1.force)")
+    with pytest.raises(rheonet.NetlistError, match="stifness"):
+        scene.sample({"k1.stifness": "100:200"}, 2, "max(k1.force)")

@@ -77,8 +77,8 @@ for (const [what, address, cut] of [['a static host', () => hosted.address, fals
     await done(page);
     await redrawn(page, () => number(page, 'parameters.Fc').fill('6').then(() => number(page, 'parameters.Fc').press('Enter')));
     await shows(page, 0.99, 'B spring.force', 6, 2e-2);
-    await page.getByRole('button', { name: '▶ Animate' }).click();
-    await page.waitForFunction(() => Number(document.querySelector('.animation input').value) > 10);
+    await page.getByRole('button', { name: '▶ Play' }).click();
+    await page.waitForFunction(() => Number(document.querySelector('.animation > input').value) > 10);
     await page.getByRole('button', { name: /Pause/ }).click();
 
     assert.match(await exported(page, 'Rows (CSV)'), /^time,grip\.position,mid\.position,spring\.force\n0,0,0,0\n/);
@@ -144,10 +144,10 @@ test('what takes many runs: effects, price of accuracy, sweep', async () => {
 
 test('the drawing of a scene of more than 60 elements moves too', async () => {
   const { page, close } = await open(`${hosted.address}#file=teaching/couette-lag.toml`);
-  const places = () => page.evaluate(() => [...document.querySelectorAll('.drawing [data-element]')].map(({ style }) => style.transform));
-  await page.locator('.animation input').fill('900');
+  const places = () => page.evaluate(() => [...document.querySelectorAll('.drawing [data-element] path:first-of-type')].map((path) => path.getAttribute('d')));
+  await page.locator('.animation > input').fill('900');
   const late = await places();
-  await page.locator('.animation input').fill('300');
+  await page.locator('.animation > input').fill('300');
   const early = await places();
   assert.ok(late.filter((place, k) => place !== early[k]).length > 10);
   await close();
@@ -184,5 +184,13 @@ ${extra}`;
   await page.waitForTimeout(1000);
   await redrawn(page, () => write(scene('100 N/m')));
   assert.equal(await page.locator('.mistake').count(), 0);
+  await close();
+});
+
+test('an address with ?present begins with all on one screen', async () => {
+  const { page, close } = await open(`${hosted.address}?present#file=teaching/bingham.toml`, { viewport: { width: 1024, height: 768 } });
+  assert.ok(await page.locator('.question').isVisible());
+  assert.equal(await page.locator('.editor-box').isVisible(), false);
+  assert.ok(await page.evaluate(() => document.documentElement.scrollHeight <= innerHeight));
   await close();
 });

@@ -17,7 +17,7 @@ namespace {
 constexpr double accuracy = 1e-6;
 
 State state(double velocity, double deflection) {
-  return {.velocity = {0, velocity, -3.7}, .p = {deflection, 0.29}, .position = {}, .blocks = {}, .offset = {}};
+  return {.velocity = {0, velocity, -3.7}, .p = {deflection, 0.29}, .position = {}, .train_force = {}, .blocks = {}, .offset = {}};
 }
 
 }  // namespace

@@ -259,3 +259,36 @@ TEST_CASE("a long run shows its progress on a terminal and leaves no trace of it
   CHECK_FALSE(contains(on_terminal("timeout --foreground -s INT 1.5 rheonet run scene.toml"), "\r["));
   CHECK_FALSE(contains(on_terminal("rheonet run short.toml -o out.csv"), "\x1b"));
 }
+
+TEST_CASE("run --sensitivities adds the derivatives of the records") {
+  const Folder folder(oscillator);
+  const Finished result = folder.shell("rheonet run scene.toml --sensitivities k1.stiffness,block_mass.mass -o out.csv", 0);
+  CHECK(contains(result.err, "largest derivative"));
+  std::istringstream rows(folder.read("out.csv"));
+  std::string header;
+  std::getline(rows, header);
+  CHECK(header == "time,block.position,k1.force,d(block.position)/dln(k1.stiffness),d(k1.force)/dln(k1.stiffness),"
+                  "d(block.position)/dln(block_mass.mass),d(k1.force)/dln(block_mass.mass)");
+  double t = 0, x = 0, f = 0, by_k = 0, f_by_k = 0, by_m = 0, f_by_m = 0;
+  char comma = 0;
+  int count = 0;
+  while (rows >> t >> comma >> x >> comma >> f >> comma >> by_k >> comma >> f_by_k >> comma >> by_m >> comma >> f_by_m) {
+    const double exact = -1e-3 * std::sin(10 * t) * 5 * t;
+    CHECK(std::abs(by_k - exact) < 1e-10);
+    CHECK(std::abs(by_m + exact) < 1e-10);
+    CHECK(std::abs(f_by_k - (f + 100 * exact)) < 1e-7);
+    CHECK(std::abs(f_by_m + 100 * exact) < 1e-7);
+    ++count;
+  }
+  CHECK(count == 11);
+}
+
+TEST_CASE("run --sensitivities says what cannot be multiplied, and writes nothing") {
+  const Folder folder(oscillator);
+  const Finished mistyped = folder.shell("rheonet run scene.toml --sensitivities k1.stifness -o out.csv", 2);
+  CHECK(contains(mistyped.err, "the netlist gives no `stifness` that could be multiplied"));
+  CHECK(contains(mistyped.err, "did you mean `stiffness`?"));
+  const Finished times = folder.shell("rheonet run scene.toml --sensitivities simulate.stop -o out.csv", 1);
+  CHECK(contains(times.err, "`simulate.stop` changes the times of the rows"));
+  CHECK(contains(folder.shell("rheonet run scene.toml --sensitivities k1.stiffness --certify", 2).err, "--certify"));
+}

@@ -25,7 +25,7 @@ test('every demo asks its question, and moves what it says', async () => {
     assert.ok(await page.locator('.drawing [data-element]').count(), name);
     assert.ok(await page.locator('.plots .chart canvas').count(), name);
     const asked = /sliders\s*=\s*\{(.*)\}/.exec(text)?.[1].match(/\w+(?=\s*=\s*\[)/g) ?? [];
-    assert.deepEqual(await page.locator('fieldset', { hasText: 'to move' }).first().locator('.slider-name').allTextContents(), asked, name);
+    assert.deepEqual(await page.locator('fieldset', { hasText: 'to move' }).first().locator('[data-slider]').evaluateAll((rows) => rows.map((row) => row.dataset.slider.replace('parameters.', ''))), asked, name);
   }
   assert.deepEqual(wrong, []);
   await context.close();

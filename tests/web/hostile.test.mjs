@@ -331,7 +331,9 @@ test('bodies that are too large or no JSON are refused', async () => {
   const answer = await raw(`POST /api/task HTTP/1.1\r\nHost: 127.0.0.1\r\nAuthorization: ${server.key.Authorization}\r\nContent-Type: application/json\r\nTransfer-Encoding: chunked\r\n\r\n${piece.repeat(200)}`);
   assert.ok(answer === '' || /^HTTP\/1\.1 4/.test(answer), answer.slice(0, 100));
   for (const body of ['', '{', '[]', '1', 'null', '"x"', '{}', '{"task":"show"}', '{"task":"show","text":1}', '{"task":["show"],"text":""}', '{"task":"show","text":"\\ud800"}',
-    '{"task":"figure","scenes":[],"curves":[]}', '{"task":"report","scenes":[{}]}', '{"task":"figure","scenes":[{"text":""}],"curves":[[1,2]]}', '[' .repeat(100_000), '{"a":'.repeat(50_000), '\xff\xfe', '\0'])
+    '{"task":"figure","scenes":[],"curves":[]}', '{"task":"report","scenes":[{}]}', '{"task":"figure","scenes":[{"text":""}]}', '{"task":"figure","scenes":[{"text":"","curves":[[1,2]]}]}',
+    `{"task":"figure","scenes":[{"text":"","curves":[{"x":"time","y":"a","panel":0,"color":"url(//x)","dashes":"","x_unit":{"name":"s","factor":1},"y_unit":{"name":"m","factor":1}}]}]}`,
+    `{"task":"figure","scenes":[{"text":"","curves":[{"x":"time","y":"a","panel":0,"color":"#000000","dashes":"","x_unit":{"name":"s","factor":0},"y_unit":{"name":"m","factor":1}}]}]}`, '[' .repeat(100_000), '{"a":'.repeat(50_000), '\xff\xfe', '\0'])
     assert.equal((await post(body)).status, 400, body.slice(0, 60));
   for (const head of ['GET', 'GET / HTTP/9.9\r\n\r\n', '\0\0\0\0\r\n\r\n', `GET /${'x'.repeat(20_000)} HTTP/1.1\r\n\r\n`, `GET / HTTP/1.1\r\nHost: 127.0.0.1\r\n${'A: b\r\n'.repeat(1000)}X: ${'y'.repeat(10_000)}\r\n\r\n`,
     `POST /api/task HTTP/1.1\r\nHost: 127.0.0.1\r\nAuthorization: ${server.key.Authorization}\r\nContent-Type: application/json\r\nContent-Length: -5\r\n\r\n`, `POST /api/task HTTP/1.1\r\nHost: 127.0.0.1\r\nAuthorization: ${server.key.Authorization}\r\nContent-Type: application/json\r\nContent-Length: 99999999999999999999\r\n\r\nx`])

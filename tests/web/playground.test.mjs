@@ -197,7 +197,7 @@ test('everything works by keyboard', async () => {
       return at.closest('.cm-editor') ? 'editor' : at.getAttribute('aria-label') || at.textContent.trim().slice(0, 20) || at.tagName;
     }));
   }
-  for (const name of ['Gallery', 'Save ▾', 'Export ▾', 'Link', 'Compare', 'editor', 'B', 'k1 stiffness', '▶ Animate', 'Time'])
+  for (const name of ['Gallery', 'Save ▾', 'Export ▾', 'Link', 'Compare', 'editor', 'B', 'k1 stiffness', '▶ Play', 'Time'])
     assert.ok(reached.has(name), `${name} of ${[...reached].join(', ')}`);
   await slider(page, 'parameters.Tc').focus();
   await redrawn(page, () => page.keyboard.press('End'));

@@ -255,6 +255,19 @@ class Diagram {
                              .framed = framed(items_[i].block)});
   }
 
+  /// Takes out the steps that are too small to be seen as anything but kinks: what follows such a step keeps the height before it.
+  static void straighten(std::vector<Point>& points) {
+    constexpr double kink = 3;  // px
+    for (std::size_t i = 1; i + 1 < points.size(); ++i) {
+      const double before = points[i - 1].y, after = points[i].y;
+      if (before == after || std::abs(after - before) >= kink || points[i].x != points[i - 1].x) continue;
+      for (std::size_t k = i; k < points.size() && points[k].y == after; ++k) points[k].y = before;
+    }
+    if (points.size() < 2) return;
+    Point &tip = points.back(), &last = points[points.size() - 2];
+    if (tip.x != last.x && tip.y != last.y) tip.y = last.y;
+  }
+
   void line(Piece& all, std::size_t k) {
     const Layers::Line& line = graph_.lines[k];
     const Point start = middle(at(line.from)), end = middle(at(line.to));
@@ -288,9 +301,10 @@ class Diagram {
     }
     const double x = end.x + items_[at(line.to)].left;
     drawn.points.push_back({x, in});
+    straighten(drawn.points);
     if (signs_[k] < 0 && detail_.names) {
       // Outside of the lines of a block's inputs, so that nobody takes it for that of the next one.
-      const double baseline = line.in > 0 ? in + 10 : in - 3.2;
+      const double tip = drawn.points.back().y, baseline = line.in > 0 ? tip + 10 : tip - 3.2;
       all.ink.labels.push_back({"−", {x - 10, baseline}, true, 11, Label::Kind::value});
     }
     all.ink.signals.push_back(std::move(drawn));

@@ -146,10 +146,11 @@ void Draftsman::drive(Stand& stand, int element, bool from_left) const {
     each.at.x += stand.width + width / 2;
     stand.ink.labels.push_back(std::move(each));
   }
-  const double left = from_left ? stand.width + width - size : stand.width;
+  // In the middle of its texts, which are wider than it is.
+  const double left = stand.width + (width - size) / 2;
   const Point end{from_left ? left + size : left, 0};
   stand.ink.marks.push_back({element, {left, -size / 2, left + size, size / 2}, false, {{node, end}}});
-  if (!from_left) stand.wire(node, {{stand.bar, 0}, end});
+  stand.wire(node, {end, {from_left ? stand.width + width : stand.bar, 0}});
   stand.width += width;
 }
 

@@ -1,5 +1,9 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
 #include "core/network/component.hpp"
 #include "tools/draw/picture.hpp"
 #include "tools/draw/symbol_path.hpp"
@@ -22,15 +26,50 @@ std::string path_of(const std::vector<Point>& points) {
   return path;
 }
 
-/// A horizontal wire that leaps over what it crosses.
-std::string path_of(const SignalConnection& wire) {
-  if (wire.hops.empty()) return path_of(wire.points);
+/// A piece of the wires of a node that is straight all along: from `low` to `high` at the height or the x `at`.
+struct Straight {
+  NodeId node;
+  bool horizontal;
+  double at, low, high;
+  std::vector<double> hops;  ///< x at which a horizontal one leaps over what it crosses
+};
+
+/// The wires in straight pieces, each as long as it can be: where two ends of lines meet within a straight line, the eye sees a bead.
+std::vector<Straight> straight_pieces(const std::vector<SignalConnection>& wires) {
+  constexpr double same = 0.05;  // px, below which two heights are one
+  std::vector<Straight> pieces;
+  for (const SignalConnection& wire : wires)
+    for (std::size_t k = 0; k + 1 < wire.points.size(); ++k) {
+      const Point a = wire.points[k], b = wire.points[k + 1];
+      const bool horizontal = std::abs(a.y - b.y) < same;
+      if (horizontal) pieces.push_back({wire.node, true, a.y, std::min(a.x, b.x), std::max(a.x, b.x), wire.hops});
+      else pieces.push_back({wire.node, false, a.x, std::min(a.y, b.y), std::max(a.y, b.y), {}});
+    }
+  std::stable_sort(pieces.begin(), pieces.end(), [](const Straight& a, const Straight& b) {
+    return std::tuple(a.node, a.horizontal, std::round(a.at / same), a.low) < std::tuple(b.node, b.horizontal, std::round(b.at / same), b.low);
+  });
+  std::vector<Straight> joined;
+  for (const Straight& piece : pieces) {
+    const bool goes_on = !joined.empty() && joined.back().node == piece.node && joined.back().horizontal == piece.horizontal &&
+                         std::abs(joined.back().at - piece.at) < 2 * same && piece.low <= joined.back().high + same;
+    if (!goes_on) {
+      joined.push_back(piece);
+      continue;
+    }
+    joined.back().high = std::max(joined.back().high, piece.high);
+    joined.back().hops.insert(joined.back().hops.end(), piece.hops.begin(), piece.hops.end());
+  }
+  for (Straight& piece : joined) std::sort(piece.hops.begin(), piece.hops.end());
+  return joined;
+}
+
+std::string path_of(const Straight& wire) {
+  const auto place = [&](double along) { return wire.horizontal ? Point{along, wire.at} : Point{wire.at, along}; };
   constexpr double radius = 4;
-  const double y = wire.points.front().y;
-  std::string path = 'M' + point(wire.points.front());
+  std::string path = 'M' + point(place(wire.low));
   for (const double x : wire.hops)
-    path += fmt::format("L{}A{} {} 0 0 1 {}", point({x - radius, y}), radius, radius, point({x + radius, y}));
-  return path + 'L' + point(wire.points.back());
+    path += fmt::format("L{}A{} {} 0 0 1 {}", point({x - radius, wire.at}), radius, radius, point({x + radius, wire.at}));
+  return path + 'L' + point(place(wire.high));
 }
 
 std::string part(const std::string& path, const Mark& mark, const char* attributes) {
@@ -126,7 +165,7 @@ void Picture::add(const Picture& other, Point by) {
 std::string svg(const Picture& picture, const Scene& scene) {
   std::string body;
   for (const Wall& wall : picture.walls) body += hatching(wall);
-  for (const SignalConnection& wire : picture.wires)
+  for (const Straight& wire : straight_pieces(picture.wires))
     body += fmt::format("<path class=\"node\" data-node=\"{}\" d=\"{}\"/>\n",
                         escaped(scene.nodes[static_cast<std::size_t>(wire.node)].name), path_of(wire));
   for (const SignalLine& line : picture.signals) body += arrow(line, picture.stroke);

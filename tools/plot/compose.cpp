@@ -59,7 +59,7 @@ std::vector<Group> grouped(const std::vector<const Measured*>& curves) {
   std::vector<Group> groups;
   for (const Measured* curve : curves) {
     auto group = std::find_if(groups.begin(), groups.end(),
-                              [&](const Group& g) { return compatible(g.front()->y.measure, curve->y.measure); });
+                              [&](const Group& g) { return g.front()->panel == curve->panel && compatible(g.front()->y.measure, curve->y.measure); });
     if (group == groups.end()) group = groups.insert(groups.end(), Group{});
     group->push_back(curve);
   }
@@ -104,7 +104,7 @@ void check_range(const std::optional<std::pair<double, double>>& range, bool log
 
 Curve in_units(const Measured& measured, double x_factor, double y_factor, bool magnitude,
                std::vector<std::string>& notes) {
-  Curve curve{measured.name, measured.trace.points()};
+  Curve curve{measured.name, measured.trace.points(), measured.style};
   std::size_t gaps = 0, too_large = 0;
   for (Point& p : curve.points) {
     if (!drawable(p)) {
@@ -165,13 +165,13 @@ Figure compose(std::vector<Measured> measured, const Look& look, std::vector<std
 
   Figure figure{
       .title = look.title, .x = {}, .panels = {}, .marks = look.marks, .width = look.width, .height = look.height};
-  const Shown x =
-      unit_of(along_x(*curves[0]), look, look.logarithmic_x, largest(curves, [](const Point& p) { return p.x; }));
+  const Shown x = curves[0]->x_unit.value_or(
+      unit_of(along_x(*curves[0]), look, look.logarithmic_x, largest(curves, [](const Point& p) { return p.x; })));
   figure.x = {look.x_label.empty() ? with_unit(quantities(curves, along_x), x.name) : look.x_label, look.logarithmic_x,
               look.x_range};
   for (Group& group : groups) {
-    const Shown y =
-        unit_of(along_y(*group[0]), look, look.logarithmic_y, largest(group, [](const Point& p) { return p.y; }));
+    const Shown y = group[0]->y_unit.value_or(
+        unit_of(along_y(*group[0]), look, look.logarithmic_y, largest(group, [](const Point& p) { return p.y; })));
     const std::string quantity = (look.magnitudes ? "magnitude of " : "") + quantities(group, along_y);
     Panel panel{{look.y_label.empty() ? with_unit(quantity, y.name) : look.y_label, look.logarithmic_y, look.y_range},
                 {}};

@@ -7,6 +7,7 @@
 
 #include "tools/plot/csv.hpp"
 #include "tools/plot/figure.hpp"
+#include "tools/plot/units.hpp"
 
 namespace rheonet::plot {
 
@@ -15,6 +16,9 @@ struct Measured {
   std::string name;
   Column x, y;
   Trace trace;
+  std::optional<Style> style = {};
+  int panel = 0;  ///< curves of different numbers share no panel
+  std::optional<Shown> x_unit = {}, y_unit = {};  ///< in which they are shown; if not given, as the look says
 };
 
 /// How a figure is wanted; what is not said follows from the curves.

@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "tools/plot/style.hpp"
+
 namespace rheonet::plot {
 
 /// A point of a curve, in the units of its axes. One that is not finite interrupts the curve.
@@ -15,6 +17,7 @@ struct Point {
 struct Curve {
   std::string name;           ///< in the legend
   std::vector<Point> points;  ///< in the order in which they are joined
+  std::optional<Style> style = {};  ///< if not given, that of its place in its panel
 };
 
 struct Axis {

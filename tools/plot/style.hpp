@@ -2,13 +2,14 @@
 
 #include <array>
 #include <cstddef>
+#include <string>
 
 namespace rheonet::plot {
 
 /// How a curve is drawn.
 struct Style {
-  const char* color;
-  const char* dashes;  ///< lengths of dash, gap, ...; "": none
+  std::string color;   ///< of SVG
+  std::string dashes;  ///< lengths of dash, gap, ... [px]; "": none
 };
 
 // The colours are those of M. Okabe and K. Ito (Color Universal Design, 2008), which colour-blind people can tell

@@ -134,15 +134,17 @@ std::string line(double x1, double y1, double x2, double y2, const std::string& 
                      attributes);
 }
 
-std::string stroke(Style style) {
-  const std::string dashed = *style.dashes ? fmt::format(" stroke-dasharray=\"{}\"", style.dashes) : "";
+std::string stroke(const Style& style) {
+  const std::string dashed = style.dashes.empty() ? "" : fmt::format(" stroke-dasharray=\"{}\"", style.dashes);
   return fmt::format(" stroke=\"{}\" stroke-width=\"1.6\"{}", style.color, dashed);
 }
 
-std::string mark(double x, double y, const char* color) {
+std::string mark(double x, double y, const std::string& color) {
   return fmt::format("<circle cx=\"{}\" cy=\"{}\" r=\"2.8\" fill=\"{}\" stroke=\"none\"/>\n", coordinate(x),
                      coordinate(y), color);
 }
+
+Style style_in(const Panel& panel, std::size_t curve) { return panel.curves[curve].style.value_or(style_of(curve)); }
 
 /// The names of the curves with their lines, in rows from `y` on that are filled from the left. The y below it.
 /// `solid` says which have no dashes; if it is empty, all have theirs.
@@ -157,7 +159,7 @@ double legend(const Figure& figure, const Panel& panel, double left, double y, d
       x = left;
       y += row;
     }
-    Style style = style_of(k);
+    Style style = style_in(panel, k);
     if (!solid.empty() && solid[k]) style.dashes = "";
     out += line(x, y + row / 2 + 1, x + sample, y + row / 2 + 1, " fill=\"none\"" + stroke(style));
     if (figure.marks) out += mark(x + sample / 2, y + row / 2 + 1, style.color);
@@ -217,7 +219,7 @@ std::vector<bool> curves(const Figure& figure, const Panel& panel, const Place& 
   out += fmt::format("<svg x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"none\" stroke-linejoin=\"round\">\n",
                      coordinate(at.left), coordinate(at.top), coordinate(at.width), coordinate(at.height));
   for (std::size_t k = 0; k < panel.curves.size(); ++k) {
-    Style style = style_of(k);
+    Style style = style_in(panel, k);
     std::vector<Point> pixels = panel.curves[k].points;
     for (Point& p : pixels) p = {sx(p.x), at.height - sy(p.y)};
     std::string path;
@@ -228,9 +230,14 @@ std::vector<bool> curves(const Figure& figure, const Panel& panel, const Place& 
       for (std::size_t i = 0; i < part.size(); ++i)
         path += fmt::format("{}{} {}", i == 0 ? "M" : i == 1 ? "L" : " ", coordinate(part[i].x), coordinate(part[i].y));
     if (!path.empty()) out += fmt::format("<path d=\"{}\"{}/>\n", path, stroke(style));
+    // A curve that stands still would be a line without a length, which nobody sees.
+    const auto finite = [](const Point& p) { return std::isfinite(p.x) && std::isfinite(p.y); };
+    const auto first = std::find_if(pixels.begin(), pixels.end(), finite);
+    const bool still = std::all_of(first, pixels.end(), [&](const Point& p) { return !finite(p) || std::hypot(p.x - first->x, p.y - first->y) < 0.5; });
+    if (still && first != pixels.end() && !figure.marks) out += mark(first->x, first->y, style.color);
     if (!figure.marks) continue;
     for (const Point& p : pixels)
-      if (std::isfinite(p.x) && std::isfinite(p.y)) out += mark(p.x, p.y, style.color);
+      if (finite(p)) out += mark(p.x, p.y, style.color);
   }
   out += "</svg>\n";
   return solid;

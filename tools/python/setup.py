@@ -23,7 +23,7 @@ def cmake(*arguments):
 class CMakeBuild(build_ext):
     def build_extension(self, extension):
         if not (build / "CMakeCache.txt").exists():
-            cmake("-S", project, "-B", build, f"-DPython_EXECUTABLE={sys.executable}", "-DRHEONET_TESTS=OFF", "-DRHEONET_WEB=OFF")
+            cmake("-S", project, "-B", build, f"-DPython_EXECUTABLE={sys.executable}", "-DRHEONET_TESTS=OFF")
         cmake("--build", build, "--target", "rheonet_python", "--parallel", os.cpu_count())
         with tempfile.TemporaryDirectory() as prefix:
             for component in ("python", "wheel"):

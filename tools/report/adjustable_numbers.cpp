@@ -19,9 +19,29 @@ bool takes_part_in_wiring(const std::string& key) {
   return words.contains(key);
 }
 
+/// The comment at the end of a line, which says what the number in the line stands for.
+std::string comment_of_line(const std::string& text, int line) {
+  std::size_t begin = 0;
+  for (int k = 1; k < line && begin != text.npos; ++k) begin = text.find('\n', begin) == text.npos ? text.npos : text.find('\n', begin) + 1;
+  if (begin == text.npos) return "";
+  const std::string whole = text.substr(begin, text.find('\n', begin) - begin);
+  char quote = 0;
+  for (std::size_t i = 0; i < whole.size(); ++i) {
+    const char c = whole[i];
+    if (quote == '"' && c == '\\') ++i;
+    else if (quote) quote = c == quote ? '\0' : quote;
+    else if (c == '"' || c == '\'') quote = c;
+    else if (c == '#') {
+      const std::size_t first = whole.find_first_not_of("# \t", i), last = whole.find_last_not_of(" \t\r");
+      return first == whole.npos ? "" : whole.substr(first, last + 1 - first);
+    }
+  }
+  return "";
+}
+
 class Finder {
  public:
-  explicit Finder(const ReadResult& read) : scene_(*read.scene), demo_(read.presentation.demo) {}
+  explicit Finder(const ReadResult& read) : scene_(*read.scene), demo_(read.presentation.demo), text_(read.sources.files.front().text) {}
 
   void find(const TomlValue& document) {
     for (const TomlEntry& table : document.entries) {
@@ -97,7 +117,7 @@ class Finder {
     knob.value = literal->value;
     knob.unit = literal->unit;
     knob.spot = value.spot;
-    if (declared) knob.description = declared->description;
+    knob.description = declared ? declared->description : comment_of_line(text_, value.spot.line);
     set_range(knob, declared);
     if (group == "parameters") take_demo(knob);
     found.push_back(std::move(knob));
@@ -166,6 +186,7 @@ class Finder {
 
   const Scene& scene_;
   const Demo& demo_;
+  const std::string& text_;
 };
 
 }  // namespace

@@ -14,7 +14,7 @@ struct AdjustableNumber {
 
   std::string group;        ///< "parameters", an element's name, "simulate"
   std::string name;         ///< within it: "stiffness", "velocity.step"
-  std::string description;  ///< of a declared parameter; else ""
+  std::string description;  ///< of a declared parameter; else the comment behind it in its line, or ""
   double value = 0;
   std::string unit;         ///< as typed; "" for a plain number
   Scale scale = Scale::linear;

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -71,11 +72,24 @@ json records(const ReadResult& read) {
   return list;
 }
 
+/// The values of an element that are numbers from the start to the end, in SI.
+json numbers_of(const SceneElement& element) {
+  const Declaration& declaration = *declarations()[static_cast<std::size_t>(element.declaration)];
+  json numbers = json::object();
+  for (std::size_t i = 0; i < declaration.parameters.size(); ++i) {
+    const auto& varying = element.signal_parameters;
+    const bool varies = std::find(varying.begin(), varying.end(), static_cast<int>(i)) != varying.end();
+    if (!varies && std::isfinite(element.values[i])) numbers[declaration.parameters[i].name] = element.values[i];
+  }
+  return numbers;
+}
+
 json elements(const Scene& scene) {
   json list = json::array();
   constexpr std::size_t most = 500;  // of more no one reads a table
   for (std::size_t i = 0; i < std::min(scene.elements.size(), most); ++i) {
     const SceneElement& element = scene.elements[i];
+    if (element.part != SceneElement::Part::none) continue;
     const auto node = [&scene](NodeId id) { return scene.nodes[static_cast<std::size_t>(id)].name; };
     const auto [name, type, place, values] = tool::row_of(element, scene);
     list.push_back({{"name", name},
@@ -83,7 +97,8 @@ json elements(const Scene& scene) {
                     {"place", place},
                     {"a", node(element.a)},
                     {"b", element.at ? "" : node(element.b)},
-                    {"values", values}});
+                    {"values", values},
+                    {"numbers", numbers_of(element)}});
   }
   return list;
 }
@@ -219,7 +234,7 @@ std::string scene_message(const ReadResult& read, const std::string& file, std::
                   {"records", records(read)},
                   {"own_records", own_records},
                   {"elements", elements(scene)},
-                  {"element_count", scene.elements.size()},
+                  {"element_count", std::count_if(scene.elements.begin(), scene.elements.end(), [](const SceneElement& e) { return e.part == SceneElement::Part::none; })},
                   {"node_count", scene.nodes.size() - 1},
                   {"equations", equations(scene)},
                   {"sliders", sliders(read)},

@@ -226,8 +226,11 @@ struct CommandLine {
     run->add_option("--plot", arguments.figure, "draw the records (as [plot] says, else over time) into an .svg or a .png")
         ->type_name("FILE");
     add_accuracy(run);
+    add_list(run, "--sensitivities", arguments.sensitivities,
+             "add the derivatives of each record by the logarithms of these values: spring.stiffness, or a parameter", "PATH,...");
     run->add_flag("--certify", arguments.certify,
                   "estimate the error of each record from a tighter run, and tighten until it meets the accuracy");
+    for (const char* other : {"--certify", "--plot"}) run->get_option("--sensitivities")->excludes(run->get_option(other));
     run->add_flag("--profile", arguments.profile, "list the elements and nodes that limit the steps");
     run->add_option("--order", order, "highest order of the integration method, 1 to 5 (default 5)")->type_name("N");
     run->add_flag("-q,--quiet", arguments.quiet, "no progress bar and no summary");

@@ -35,6 +35,7 @@ struct Arguments {
   std::optional<double> accuracy;
   bool certify = false;                ///< of `run` and `report`
   bool profile = false;                ///< of `run`
+  std::vector<std::string> sensitivities;  ///< of `run`: paths of values
   int order = 5;                       ///< of the integration method in `run`, at most
   std::vector<double> accuracies;      ///< of `precision`, each once, from the loosest on
   int runs = 5;                        ///< of `precision`, for each accuracy; of `effects`, of each model

@@ -7,6 +7,7 @@
 
 #include "core/netlist/characters.hpp"
 #include "tools/rheonet/comparison.hpp"
+#include "tools/rheonet/pricing.hpp"
 #include "tools/rheonet/reading.hpp"
 #include "tools/rheonet/say.hpp"
 #include "tools/rheonet/words.hpp"
@@ -61,21 +62,24 @@ std::optional<std::map<std::string, std::string>> pairs_of(const Arguments& argu
   return result;
 }
 
-/// In the order of the records of the scene; false, with a message, where a quantity is another one.
-bool take_records(const Scene& scene, const std::vector<std::string>& paths, const std::string& text, Scene& variant) {
-  const Columns columns = record_columns(variant);
-  std::vector<Record> records;
-  for (std::size_t k = 0; k < paths.size(); ++k) {
-    const Record& record = variant.records[columns.at(paths[k])];
-    if (!unit_of(scene, scene.records[k]).dimension.same(unit_of(variant, record).dimension)) {
-      say("error: `{}` and, in the variant `{}`, `{}` are different quantities\n", scene.records[k].path, printable(text), paths[k]);
-      return false;
-    }
-    records.push_back(record);
+/// Reads a variant, with the records `own` if it is of the scene's own file, else with those that are `paired`. Nothing, with messages,
+/// if it has a mistake; throws NotComparable.
+std::optional<Variant> read_variant(const Arguments& arguments, const std::string& text, const std::vector<std::string>& own,
+                                    const std::vector<std::string>& paired, const Scene& scene) {
+  const auto asked = parsed(text, arguments.scene);
+  if (!asked) return {};
+  ReadOptions options = options_of(arguments);
+  options.claims = false;  // they are about each scene as it stands, alone
+  options.records = asked->file == arguments.scene ? own : paired;
+  options.overrides.insert(options.overrides.end(), asked->overrides.begin(), asked->overrides.end());
+  ReadResult read = read_and_report(asked->file, options);
+  if (!read.scene) {
+    say("  in the variant `{}`; it has to have all that the scene records, or what `--pair` names in place of it\n", printable(text));
+    return {};
   }
-  variant.records = std::move(records);
-  variant.exact.clear();
-  return true;
+  Variant variant{asked->text, std::move(*read.scene)};
+  take_records(scene, options.records, variant);
+  return variant;
 }
 
 }  // namespace
@@ -89,32 +93,18 @@ std::optional<std::vector<SimulationMethod>> asked_variants(const Arguments& arg
     own.push_back(record.path);
     paired.push_back(other == pairs->end() ? record.path : other->second);
   }
-  std::vector<SimulationMethod> methods;
-  std::vector<Scene> scenes{scene};
-  for (const std::string& text : arguments.variant_texts) {
-    const auto asked = parsed(text, arguments.scene);
-    if (!asked) return {};
-    ReadOptions options = options_of(arguments);
-    options.claims = false;  // they are about each scene as it stands, alone
-    const std::vector<std::string>& paths = asked->file == arguments.scene ? own : paired;
-    options.records = paths;
-    options.overrides.insert(options.overrides.end(), asked->overrides.begin(), asked->overrides.end());
-    ReadResult read = read_and_report(asked->file, options);
-    if (!read.scene || !take_records(scene, paths, text, *read.scene)) {
-      say("  in the variant `{}`; it has to have all that the scene records, or what `--pair` names in place of it\n", printable(text));
-      return {};
+  try {
+    std::vector<Variant> variants;
+    for (const std::string& text : arguments.variant_texts) {
+      std::optional<Variant> variant = read_variant(arguments, text, own, paired, scene);
+      if (!variant) return {};
+      variants.push_back(std::move(*variant));
     }
-    methods.push_back({.name = asked->text});
-    scenes.push_back(std::move(*read.scene));
-  }
-  if (const std::string why = obstacle(scenes); !why.empty()) {
-    say("error: {}\n", why);
+    return methods_of(std::move(variants), scene);
+  } catch (const NotComparable& why) {
+    say("error: {}\n", printable(why.what()));
     return {};
   }
-  if (!methods.empty()) to_one_time_base(scenes);
-  scene = scenes.front();
-  for (std::size_t k = 0; k < methods.size(); ++k) methods[k].scene = {std::move(scenes[k + 1])};
-  return methods;
 }
 
 }  // namespace rheonet::tool

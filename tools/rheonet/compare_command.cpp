@@ -48,7 +48,6 @@ std::string some_records(const Scene& scene) {
 /// Reads the scenes, with one value of `--vary` ("" for none).
 Compared read_all(const Arguments& arguments, const std::string& override) {
   Compared compared;
-  compared.files = arguments.scenes;
   compared.pairings = named_pairs(arguments);
   for (std::size_t i = 0; i < arguments.scenes.size(); ++i) {
     ReadOptions options = options_of(arguments);
@@ -60,53 +59,32 @@ Compared read_all(const Arguments& arguments, const std::string& override) {
     for (const Pairing& pairing : compared.pairings) options.records.push_back(pairing[i]);
     ReadResult read = read_and_report(arguments.scenes[i], options);
     if (!read.scene || is_source(arguments.overlay, "--output", read.sources)) throw Ended{wrong_input};
-    compared.scenes.push_back(std::move(*read.scene));
-    compared.columns.push_back(record_columns(compared.scenes.back()));
-    compared.sources.push_back(std::move(read.sources));
+    compared.add(arguments.scenes[i], std::move(*read.scene), std::move(read.sources));
   }
   if (!can_be_table(arguments.overlay, "--output")) throw Ended{wrong_input};
-  if (const std::string why = obstacle(compared.scenes); !why.empty()) {
-    say("error: {}\n", why);
+  try {
+    prepare(compared);
+  } catch (const NotComparable& why) {
+    say("error: {}\n", why.what());
     throw Ended{wrong_input};
   }
-  if (compared.pairings.empty()) compared.pairings = shared_records(compared.scenes.front(), compared.columns);
-  if (compared.pairings.empty()) {
-    say("error: the scenes record nothing of the same name; pair two records: --pair k1.force=m.spring1.force\n");
-    for (std::size_t i = 0; i < compared.scenes.size(); ++i)
-      say("  {} records {}\n", printable(compared.files[i]), some_records(compared.scenes[i]));
-    throw Ended{wrong_input};
-  }
-  for (const Pairing& pairing : compared.pairings) {
-    const auto what = [&](std::size_t i) {
-      return unit_of(compared.scenes[i], compared.scenes[i].records[compared.columns[i].at(pairing[i])]);
-    };
-    for (std::size_t i = 1; i < pairing.size(); ++i) {
-      if (what(i).dimension.same(what(0).dimension)) continue;
-      say("error: `{}` and `{}` are different quantities\n", pairing[0], pairing[i]);
-      throw Ended{wrong_input};
-    }
-  }
-  to_one_time_base(compared.scenes);
-  return compared;
+  if (!compared.pairings.empty()) return compared;
+  say("error: the scenes record nothing of the same name; pair two records: --pair k1.force=m.spring1.force\n");
+  for (std::size_t i = 0; i < compared.scenes.size(); ++i)
+    say("  {} records {}\n", printable(compared.files[i]), some_records(compared.scenes[i]));
+  throw Ended{wrong_input};
 }
 
 /// Runs the scenes and takes the differences.
 void run_all(Compared& compared, const std::string& override, const std::atomic<bool>& interrupted) {
-  for (std::size_t i = 0; i < compared.scenes.size(); ++i) {
-    try {
-      compared.trajectories.push_back(run_to_memory(compared.scenes[i], {.interrupt = &interrupted}));
-    } catch (const SimulationError& error) {
-      report(error, compared.sources[i]);
-      say("  {}{}{}{} simulated\n", printable(compared.files[i]), override.empty() ? "" : " with ", printable(override),
-          interrupted ? " was being" : " cannot be");
-      throw Ended{not_simulated};
-    }
-  }
-  for (std::size_t i = 1; i < compared.scenes.size(); ++i) {
-    compared.differences.emplace_back();
-    for (const Pairing& pairing : compared.pairings)
-      compared.differences.back().push_back(difference(compared.trajectories[0], compared.columns[0].at(pairing[0]),
-                                                       compared.trajectories[i], compared.columns[i].at(pairing[i])));
+  try {
+    simulate(compared, {.interrupt = &interrupted});
+  } catch (const SimulationError& error) {
+    const std::size_t i = compared.trajectories.size();
+    report(error, compared.sources[i]);
+    say("  {}{}{}{} simulated\n", printable(compared.files[i]), override.empty() ? "" : " with ", printable(override),
+        interrupted ? " was being" : " cannot be");
+    throw Ended{not_simulated};
   }
 }
 

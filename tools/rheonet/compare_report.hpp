@@ -8,17 +8,6 @@
 
 namespace rheonet::tool {
 
-/// Scenes, run on one time base, and how far each is from the first.
-struct Compared {
-  std::vector<std::string> files;
-  std::vector<Scene> scenes;
-  std::vector<Columns> columns;  ///< of each scene
-  std::vector<Sources> sources;
-  std::vector<Pairing> pairings;
-  std::vector<Trajectory> trajectories;
-  std::vector<std::vector<Difference>> differences;  ///< of each scene but the first, for each pairing
-};
-
 /// "k1.force", or "k1.force / m.spring1.force" where scene `other` calls it otherwise than the first.
 std::string name_of(const Pairing& pairing, std::size_t other);
 

@@ -8,8 +8,8 @@
 
 #include "core/netlist/characters.hpp"
 #include "tools/plot/png.hpp"
+#include "tools/rheonet/chart.hpp"
 #include "tools/rheonet/output.hpp"
-#include "tools/rheonet/plot_source.hpp"
 #include "tools/rheonet/say.hpp"
 
 namespace rheonet::tool {
@@ -22,6 +22,10 @@ ExitStatus write_picture(const std::string& text, const std::string& path) {
 }
 
 }  // namespace
+
+void say_notes(const std::vector<std::string>& notes) {
+  for (const std::string& note : notes) say("note: {}\n", printable(note));
+}
 
 bool can_be_figure(const std::string& path, const char* option) {
   if (path == "-") return true;
@@ -55,37 +59,13 @@ ExitStatus write_figure(const std::string& svg, const std::string& path) {
 ExitStatus write_figure(std::vector<plot::Measured> curves, const plot::Look& look, const std::string& path) {
   std::vector<std::string> notes;
   const std::string text = plot::svg(plot::compose(std::move(curves), look, notes));
-  for (const std::string& note : notes) say("note: {}\n", printable(note));
+  say_notes(notes);
   return write_figure(text, path);
-}
-
-std::vector<std::size_t> chosen_columns(const std::vector<plot::Column>& columns, const std::string& x) {
-  constexpr std::size_t room = 12;
-  std::vector<std::pair<const plot::Measure*, std::size_t>> counts;
-  std::vector<std::size_t> chosen;
-  std::size_t left_out = 0;
-  for (std::size_t k = 0; k < columns.size(); ++k) {
-    if (columns[k].name == x || columns[k].name == "time") continue;
-    auto count = std::find_if(counts.begin(), counts.end(),
-                              [&](const auto& c) { return plot::compatible(*c.first, columns[k].measure); });
-    if (count == counts.end()) count = counts.insert(counts.end(), {&columns[k].measure, 0});
-    if (++count->second <= room)
-      chosen.push_back(k);
-    else
-      ++left_out;
-  }
-  if (left_out > 0) say("note: of each quantity the first {} columns are drawn; {} others are not\n", room, left_out);
-  return chosen;
-}
-
-void follow(const PlotTable& table, plot::Look& look) {
-  if (look.units.empty()) look.units = table.units;
-  look.logarithmic_x = look.logarithmic_x || table.log.starts_with('x');
-  look.logarithmic_y = look.logarithmic_y || table.log.ends_with('y');
 }
 
 RunFigure::RunFigure(const Scene& scene, const PlotTable& table) {
   look_.title = scene.title;
+  std::vector<std::string> notes;
   const std::vector<plot::Column> columns = columns_of(scene);
   const auto column = [&](const std::string& name) {
     const auto found = std::find_if(columns.begin(), columns.end(), [&](const auto& c) { return c.name == name; });
@@ -97,7 +77,8 @@ RunFigure::RunFigure(const Scene& scene, const PlotTable& table) {
   if (!chosen_.empty())
     follow(table, look_);
   else
-    for (const std::size_t k : chosen_columns(columns, "time")) chosen_.emplace_back(0, k);
+    for (const std::size_t k : chosen_columns(columns, "time", notes)) chosen_.emplace_back(0, k);
+  say_notes(notes);
   for (const auto& [x, y] : chosen_) curves_.push_back({columns[y].name, columns[x], columns[y], {}});
 }
 

@@ -14,6 +14,9 @@ namespace rheonet::tool {
 /// for it. `option` is what names it: "--output".
 bool can_be_figure(const std::string& path, const char* option);
 
+/// Prints on standard error what was left out of a figure.
+void say_notes(const std::vector<std::string>& notes);
+
 /// Says why a figure cannot be drawn.
 void report(const plot::Mistake& mistake);
 
@@ -22,13 +25,6 @@ ExitStatus write_figure(const std::string& svg, const std::string& path);
 
 /// Composes and writes a figure, and says what was left out of it. Throws plot::Mistake.
 ExitStatus write_figure(std::vector<plot::Measured> curves, const plot::Look& look, const std::string& path);
-
-/// Of columns that nobody chose, those that a figure has room for beside its x: the first twelve of each quantity, and
-/// no time. Says how many others there are.
-std::vector<std::size_t> chosen_columns(const std::vector<plot::Column>& columns, const std::string& x);
-
-/// The units and logarithmic axes of `[plot]`, where the command line has none.
-void follow(const PlotTable& table, plot::Look& look);
 
 /// Draws what `[plot]` says of what a run records while it goes on, or all records over time: `run --plot`.
 class RunFigure {

@@ -1,12 +1,9 @@
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <iterator>
 #include <memory>
 #include <optional>
 #include <utility>
 
-#include "core/network/linearity.hpp"
 #include "core/result/work_precision.hpp"
 #include "tools/rheonet/asked_variants.hpp"
 #include "tools/rheonet/commands.hpp"
@@ -14,20 +11,13 @@
 #include "tools/rheonet/interrupt.hpp"
 #include "tools/rheonet/output.hpp"
 #include "tools/rheonet/precision_report.hpp"
+#include "tools/rheonet/pricing.hpp"
 #include "tools/rheonet/reading.hpp"
 #include "tools/rheonet/say.hpp"
 #include "tools/rheonet/watched.hpp"
 
 namespace rheonet::tool {
 namespace {
-
-/// Those that are asked for, and the scene's own: what it costs is to be compared with.
-std::vector<double> tolerances_of(const Arguments& arguments, const Scene& scene) {
-  std::vector<double> result = arguments.accuracies;
-  if (result.empty()) result = {1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11};
-  if (std::find(result.begin(), result.end(), scene.accuracy) == result.end()) result.push_back(scene.accuracy);
-  return result;
-}
 
 ExitStatus draw(const Scene& scene, const PriceList& list, const std::string& path) {
   plot::Look look;
@@ -59,15 +49,14 @@ ExitStatus price_scene(const Arguments& arguments) {
 
   PriceList list;
   const bool simulated = do_watched(read.sources, [&](const auto& progress) {
-    std::vector<SimulationMethod> all = arguments.variants ? methods(scene) : std::vector<SimulationMethod>{{.name = "order up to 5"}};
-    if (!not_linear(scene)) all.push_back({.name = "exact arcs", .method = Scene::Method::exact});
-    if (arguments.certified) all.push_back({.name = "certified", .certified = true});
-    std::move(asked->begin(), asked->end(), std::back_inserter(all));
-    list = price_list(scene, {.tolerances = tolerances_of(arguments, scene),
-                              .methods = std::move(all),
-                              .runs = arguments.runs,
-                              .interrupt = &end_on_signals(),
-                              .progress = progress});
+    PriceListSettings settings = settings_of(scene, {.accuracies = arguments.accuracies,
+                                                     .variants = arguments.variants,
+                                                     .certified = arguments.certified,
+                                                     .models = std::move(*asked)});
+    settings.runs = arguments.runs;
+    settings.interrupt = &end_on_signals();
+    settings.progress = progress;
+    list = price_list(scene, settings);
   });
   if (!simulated) return not_simulated;
   const std::string text = describe(scene, arguments.scene, list);

@@ -24,6 +24,7 @@
 #include "tools/rheonet/progress.hpp"
 #include "tools/rheonet/reading.hpp"
 #include "tools/rheonet/say.hpp"
+#include "tools/rheonet/sensitivity_rows.hpp"
 #include "tools/rheonet/summary.hpp"
 
 namespace rheonet::tool {
@@ -75,10 +76,13 @@ struct Outputs {
   }
 };
 
-tables::Layout layout_of(const Scene& scene) {
+tables::Layout layout_of(const Scene& scene, const std::vector<std::string>& sensitivities) {
   tables::Layout layout{.title = scene.title, .program = "", .row = "time", .columns = {{"time", "s"}}};
-  for (const Record& record : scene.records)
-    layout.columns.push_back({record.path, unit_of(scene, record).open ? "" : unit_text(scene, record)});
+  const auto unit = [&](const Record& record) { return unit_of(scene, record).open ? "" : unit_text(scene, record); };
+  for (const Record& record : scene.records) layout.columns.push_back({record.path, unit(record)});
+  for (const std::string& path : sensitivities) {
+    for (const Record& record : scene.records) layout.columns.push_back({derivative_name(record.path, path), unit(record)});
+  }
   return layout;
 }
 
@@ -107,12 +111,13 @@ ExitStatus run_scene(const Arguments& arguments) {
       is_source(arguments.figure, "--plot", read.sources))
     return wrong_input;
   if (!can_be_table(arguments.output, "--output", true) || !can_be_table(arguments.events, "--events")) return wrong_input;
+  if (!can_be_multiplied(arguments)) return wrong_input;
 
   const std::atomic<bool>& interrupted = end_on_signals();
   Outputs outputs;
   // The rows that are certified come when they are known to be good: an earlier result stays until then.
   const auto method = arguments.certify ? Output::SimulationMethod::complete : Output::SimulationMethod::as_it_comes;
-  outputs.rows = open_table(arguments.output, method, layout_of(*read.scene));
+  outputs.rows = open_table(arguments.output, method, layout_of(*read.scene, arguments.sensitivities));
   if (!outputs.rows) return wrong_input;
   if (!arguments.events.empty()) {
     outputs.events = open_output(arguments.events, method);
@@ -139,13 +144,17 @@ ExitStatus run_scene(const Arguments& arguments) {
     if (!looked_into) settings.state = {};
     std::optional<Certificate> certificate;
     if (arguments.certify) certificate = certify(*read.scene, settings);
-    const Summary summary = certificate ? certificate->summary : run(*read.scene, settings);
+    const std::vector<Sensitivity> derivatives = sensitivities(arguments, settings);
+    const Summary summary = certificate           ? certificate->summary
+                            : derivatives.empty() ? run(*read.scene, settings)
+                                                  : write_with_derivatives(*read.scene, derivatives, arguments, settings);
     if (!looked_into && summary.events > 0) draw_again(*read.scene, read.presentation, settings, figure);
     progress.erase();
     if (!outputs.close() || (figure && figure->write(arguments.figure) != done)) return not_simulated;
     if (!arguments.quiet) {
       say("{}: {:g} s to {:g} s\n{}", printable(arguments.scene), read.scene->start, read.scene->stop,
           describe(summary, outputs.rows->rows(), outputs.rows->name()));
+      if (!derivatives.empty()) say("{}", describe(*read.scene, derivatives, arguments));
     }
     if (arguments.profile) say("{}", describe_profile(summary));
     const bool as_claimed = report_claims(*read.scene, summary, read.sources, arguments.quiet);

@@ -37,10 +37,7 @@ tables::Layout Sweep::layout() const {
 }
 
 ReadResult Sweep::read(const std::vector<std::string>& values) {
-  ReadOptions options = options_of(arguments_);
-  options.claims = false;  // they are about the scene as it stands
-  options.cache = &cache_;
-  options.measures = table_.record_measures();
+  ReadOptions options = options_;
   for (std::size_t k = 0; k < values.size(); ++k)
     options.overrides.push_back(design_.paths()[k] + '=' + values[k]);
   if (!values.empty()) options.origins = design_.origins();

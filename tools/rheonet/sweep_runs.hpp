@@ -7,6 +7,7 @@
 #include "core/netlist/read.hpp"
 #include "tools/rheonet/arguments.hpp"
 #include "tools/rheonet/design.hpp"
+#include "tools/rheonet/reading.hpp"
 #include "tools/rheonet/sweep_table.hpp"
 
 namespace rheonet::tool {
@@ -15,7 +16,11 @@ namespace rheonet::tool {
 class Sweep {
  public:
   Sweep(const Arguments& arguments, Design design, SweepTable table)
-      : arguments_(arguments), design_(std::move(design)), table_(std::move(table)) {}
+      : arguments_(arguments), options_(options_of(arguments)), design_(std::move(design)), table_(std::move(table)) {
+    options_.claims = false;  // they are about the scene as it stands
+    options_.cache = &cache_;
+    options_.measures = table_.record_measures();
+  }
 
   const Design& design() const { return design_; }
   std::string header() const { return table_.header(some_points()); }
@@ -43,9 +48,10 @@ class Sweep {
   bool is_wrong_for_all(const ReadResult& refused);
 
   const Arguments& arguments_;
+  FileCache cache_;
+  ReadOptions options_;  ///< of every run
   Design design_;
   SweepTable table_;
-  FileCache cache_;
   std::string title_;
   ReadResult first_;
   std::atomic<long> failed_ = 0;

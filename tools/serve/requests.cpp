@@ -1,6 +1,7 @@
 #include "tools/serve/requests.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <filesystem>
 #include <initializer_list>
 #include <nlohmann/json.hpp>
@@ -15,7 +16,7 @@ using nlohmann::json;
 
 namespace {
 
-constexpr std::size_t most_compared = 4, most_curves = 200, longest_name = 1000;
+constexpr std::size_t most_compared = 10, most_curves = 200, longest_name = 1000;
 
 /// A netlist as a worker gets it; absent if it is not one.
 std::optional<json> scene_of(const json& value) {
@@ -23,6 +24,34 @@ std::optional<json> scene_of(const json& value) {
   const std::string file = word(value, "file");
   const std::string folder = fault_of_name(file).empty() ? std::filesystem::path(file).parent_path().string() : "";
   return json{{"text", value["text"]}, {"file", file.empty() ? "scene.toml" : file}, {"folder", folder}};
+}
+
+/// A unit as a page shows it: its name, and its size in SI.
+std::optional<json> unit_of(const json& curve, const char* key) {
+  const json unit = curve.value(key, json());
+  if (!unit.is_object() || !unit.value("factor", json()).is_number() || !(unit["factor"].get<double>() > 0)) return {};
+  return json{{"name", word(unit, "name")}, {"factor", unit["factor"]}};
+}
+
+bool consists_of(const std::string& text, const char* characters) { return text.find_first_not_of(characters) == text.npos; }
+
+/// A curve of a figure: its columns, and how the page shows it.
+std::optional<json> curve_of(const json& curve) {
+  if (!curve.is_object()) return {};
+  json result;
+  for (const char* key : {"x", "y", "name", "color", "dashes"}) result[key] = word(curve, key);
+  const auto color = result["color"].get<std::string>();
+  if (result["x"] == "" || result["y"] == "" || color.size() != 7 || color[0] != '#') return {};
+  if (!consists_of(color.substr(1), "0123456789abcdef") || !consists_of(result["dashes"].get<std::string>(), "0123456789. ")) return {};
+  const json panel = curve.value("panel", json());
+  if (!panel.is_number_unsigned() || panel.get<std::uint64_t>() > most_curves) return {};
+  result["panel"] = panel;
+  for (const char* key : {"x_unit", "y_unit"}) {
+    const std::optional<json> unit = unit_of(curve, key);
+    if (!unit) return {};
+    result[key] = *unit;
+  }
+  return result;
 }
 
 bool is_one_of(std::string_view kind, std::initializer_list<std::string_view> kinds) { return std::find(kinds.begin(), kinds.end(), kind) != kinds.end(); }
@@ -68,18 +97,21 @@ std::optional<json> task_of(const json& request) {
     return task;
   }
   if ((kind != "report" && kind != "figure") || !request.contains("scenes") || !request["scenes"].is_array()) return {};
-  json task{{"task", kind}, {"scenes", json::array()}, {"curves", json::array()}};
+  json task{{"task", kind}, {"scenes", json::array()}};
   if (request["scenes"].empty() || request["scenes"].size() > most_compared) return {};
   for (const json& scene : request["scenes"]) {
     std::optional<json> one = scene_of(scene);
     if (!one) return {};
     task["scenes"].push_back(std::move(*one));
-  }
-  if (kind == "report") return task;
-  if (!request.contains("curves") || !request["curves"].is_array() || request["curves"].size() > most_curves) return {};
-  for (const json& curve : request["curves"]) {
-    if (!curve.is_array() || curve.size() != 2 || !curve[0].is_string() || !curve[1].is_string()) return {};
-    task["curves"].push_back(curve);
+    if (kind == "report") continue;
+    const json curves = scene.value("curves", json());
+    if (!curves.is_array() || curves.size() > most_curves) return {};
+    json& taken = task["scenes"].back()["curves"] = json::array();
+    for (const json& each : curves) {
+      const std::optional<json> curve = curve_of(each);
+      if (!curve) return {};
+      taken.push_back(*curve);
+    }
   }
   return task;
 }

@@ -1,5 +1,6 @@
 #include "tools/serve/tasks.hpp"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "core/network/component.hpp"
@@ -88,40 +89,41 @@ void report_of(const json& task, const Offers& offers, const Tell& tell) {
   tell_file(tell, "text/html", report::document(title, scenes));
 }
 
-/// Curves as an SVG: of each scene the records `y` over `x`.
+plot::Shown unit_of(const json& unit) { return {unit.at("name").get<std::string>(), unit.at("factor").get<double>()}; }
+
+/// Simulates a scene for the curves that a page shows of it.
+void add_curves(const json& item, const Offers& offers, std::vector<plot::Measured>& curves, plot::Look& look, const Tell& tell) {
+  ReadResult scene = read(sent_scene(item), offers);
+  if (!scene.scene) return tell(report::mistakes_message(scene));
+  if (look.title.empty()) look.title = scene.scene->title;
+  report::record_what_pages_show(*scene.scene);
+  const std::vector<plot::Column> columns = tool::columns_of(*scene.scene);
+  const auto find = [&](const json& name) {
+    return static_cast<std::size_t>(std::find_if(columns.begin(), columns.end(), [&](const plot::Column& c) { return name == c.name; }) - columns.begin());
+  };
+  std::vector<plot::ColumnPair> pairs;
+  const std::size_t first = curves.size();
+  for (const json& curve : item.at("curves")) {
+    const std::size_t x = find(curve.at("x")), y = find(curve.at("y"));
+    if (x == columns.size() || y == columns.size()) continue;
+    pairs.emplace_back(x, y);
+    const plot::Style style{curve.at("color").get<std::string>(), curve.at("dashes").get<std::string>()};
+    curves.push_back({curve.at("name").get<std::string>(), columns[x], columns[y], {}, style, curve.at("panel").get<int>(), unit_of(curve.at("x_unit")), unit_of(curve.at("y_unit"))});
+  }
+  tool::BothSides drawn([&](double time, const std::vector<double>& values) {
+    const auto value = [&](std::size_t column) { return column == 0 ? time : values[column - 1]; };
+    for (std::size_t k = 0; k < pairs.size(); ++k) curves[first + k].trace.add({value(pairs[k].first), value(pairs[k].second)});
+  });
+  RunSettings settings;
+  drawn.listen(settings);
+  run(*scene.scene, settings);
+}
+
+/// Curves as an SVG, in the colours and units of the page.
 void figure(const json& task, const Offers& offers, const Tell& tell) {
   std::vector<plot::Measured> curves;
   plot::Look look;
-  const bool several = task.at("scenes").size() > 1;
-  char letter = 'A';
-  for (const json& each : task.at("scenes")) {
-    ReadResult scene = read(sent_scene(each), offers);
-    if (!scene.scene) return tell(report::mistakes_message(scene));
-    if (look.title.empty()) look.title = scene.scene->title;
-    report::record_what_pages_show(*scene.scene);
-    const std::vector<plot::Column> columns = tool::columns_of(*scene.scene);
-    const auto find = [&](const std::string& name) {
-      for (std::size_t k = 0; k < columns.size(); ++k)
-        if (columns[k].name == name) return k;
-      return columns.size();
-    };
-    std::vector<plot::ColumnPair> pairs;
-    const std::size_t first = curves.size();
-    for (const json& pair : task.at("curves")) {
-      const std::size_t x = find(pair.at(0).get<std::string>()), y = find(pair.at(1).get<std::string>());
-      if (x == columns.size() || y == columns.size()) continue;
-      pairs.emplace_back(x, y);
-      curves.push_back({(several ? std::string(1, letter) + " " : "") + columns[y].name, columns[x], columns[y], {}});
-    }
-    tool::BothSides drawn([&](double time, const std::vector<double>& values) {
-      const auto value = [&](std::size_t column) { return column == 0 ? time : values[column - 1]; };
-      for (std::size_t k = 0; k < pairs.size(); ++k) curves[first + k].trace.add({value(pairs[k].first), value(pairs[k].second)});
-    });
-    RunSettings settings;
-    drawn.listen(settings);
-    run(*scene.scene, settings);
-    ++letter;
-  }
+  for (const json& item : task.at("scenes")) add_curves(item, offers, curves, look, tell);
   if (curves.empty()) throw plot::Mistake("there is nothing to draw", "choose what is to be shown");
   std::vector<std::string> notes;
   tell_file(tell, "image/svg+xml", plot::svg(plot::compose(std::move(curves), look, notes)));
@@ -139,9 +141,9 @@ void carry_out(const json& task, const Offers& offers, const Tell& tell) {
     if (kind == "report") return report_of(task, offers, tell);
     if (kind == "figure") return figure(task, offers, tell);
     if (kind == "effects") return weigh_effects(task, offers, tell);
-    if (kind == "lesson") return tell_lesson(task, offers, tell);
-    if (kind == "sweep") return sweep_number(task, offers, tell);
     if (kind == "precision") return price_accuracy(task, offers, tell);
+    if (kind == "sweep") return sweep_number(task, offers, tell);
+    if (kind == "lesson") return tell_lesson(task, offers, tell);
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& error) {

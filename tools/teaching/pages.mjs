@@ -33,7 +33,7 @@ try {
     assert.ok(Math.abs(Number(await reads()) - 5) < 0.5, await reads());
     await page.waitForSelector('.loop-legend .key >> nth=1');
     await done(page);
-    await page.locator('.animation input').fill('560');
+    await page.locator('.animation > input').fill('560');
     await page.mouse.move(0, 0);
     await page.waitForTimeout(500);
   }, 'playground.png');

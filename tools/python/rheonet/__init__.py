@@ -13,70 +13,28 @@ Every value is in SI units, as in the CSV files of the command `rheonet run`.
 import functools
 import itertools
 import json
+import numbers
 import os
 import pathlib
 import warnings
 from collections.abc import Mapping
-from typing import NamedTuple
 
 import numpy as np
 
-from . import _parallel, _rheonet
+from . import _parallel, _pictures, _rheonet
+from ._errors import Diagnostic, NetlistError, NetlistWarning, SimulationError, diagnostics_of
+from ._pictures import Figure, Report
+from ._result import Event, Result
+from ._studies import Comparison, Difference, Effects, Model, Precision, Price
 from ._values import coordinate, setting, toml_of
 
 __version__ = _rheonet.__version__
-__all__ = ["Diagnostic", "Event", "NetlistError", "NetlistWarning", "Result", "Scene", "SimulationError", "load", "loads"]
-
-
-class Diagnostic(NamedTuple):
-    """A mistake in a netlist, or a warning."""
-
-    severity: str  #: "error" or "warning"
-    file: str | None  #: None for a value of `changes` or a measure, which stand in no file
-    line: int | None  #: counts from 1
-    column: int | None  #: counts from 1, in characters
-    message: str  #: what was found and what was expected
-    hint: str  #: the remedy; may be empty
-    text: str  #: all of this with an excerpt of the file, as the command `rheonet` prints it
-
-
-class Event(NamedTuple):
-    """A change of the mode of an element."""
-
-    time: float  #: [s]
-    element: str
-    event: str  #: "stick", "slip", "reversal", ...
-    direction: int  #: of the motion after the event, or of the jump of a signal: 1, -1, or 0 at rest
-
-
-class _Located(Exception):
-    """An error with its place in a netlist: the attributes of Diagnostic, for the first of `diagnostics`."""
-
-    def __init__(self, diagnostics):
-        self.diagnostics = diagnostics
-        first = next(d for d in diagnostics if d.severity == "error")
-        self.file, self.line, self.column = first.file, first.line, first.column
-        self.message, self.hint = first.message, first.hint
-
-    def __str__(self):
-        return "\n".join(diagnostic.text for diagnostic in self.diagnostics)
-
-
-class NetlistError(_Located, ValueError):
-    """A netlist has mistakes. `diagnostics` lists all of them; `file`, `line`, `column`, `message` and `hint` are those of the first."""
-
-
-class SimulationError(_Located, RuntimeError):
-    """A scene cannot be simulated, or its run ended early. `result` holds the rows up to there; the other attributes are those of
-    NetlistError. `file`, `line` and `column` are None if the cause is at no place in the netlist."""
-
-    def __init__(self, diagnostics, result):
-        super().__init__(diagnostics)
-        self.result = result
-
-
-class NetlistWarning(UserWarning):
-    """A likely mistake in a netlist that can be simulated."""
+__all__ = [
+    "Comparison", "Diagnostic", "Difference", "Effects", "Event", "Figure", "Model", "NetlistError", "NetlistWarning", "Precision",
+    "Price", "Report", "Result", "Scene", "SimulationError", "load", "loads",
+]  # fmt: skip
+for _name in set(__all__) & set(globals()):
+    globals()[_name].__module__ = __name__  # as messages and help() name it
 
 
 def load(source, changes={}):
@@ -141,7 +99,7 @@ class Scene:
     @property
     def warnings(self):
         """Likely mistakes, as a list of Diagnostic. load() also issues each as a NetlistWarning."""
-        return _diagnostics(self._reading)
+        return diagnostics_of(self._reading)
 
     def run(self, accuracy=None, certify=False, threads=1, progress=None):
         """Simulates the scene.
@@ -155,7 +113,7 @@ class Scene:
         Returns a Result. Raises SimulationError, or KeyboardInterrupt on Ctrl-C. The interpreter lock is released: runs in
         several Python threads use several processors.
         """
-        return _run(self._reading, accuracy, certify, threads, progress)
+        return _run(self, accuracy, certify, threads, progress)
 
     def sweep(self, changes, measure=None, accuracy=None, jobs=None, client=None):
         """Simulates the scene for all combinations of values.
@@ -174,27 +132,17 @@ class Scene:
         import xarray
 
         paths = list(changes)
-        values = [list(changes[path]) for path in paths]
+        values = [_values(path, changes[path]) for path in paths]
         shape = [len(axis) for axis in values]
-        measures = [measure] if isinstance(measure, str) else list(measure or ())
+        measures = _texts(measure)
         combinations = list(itertools.product(*values))
         if not combinations:
             raise ValueError("a sweep needs at least one value of each parameter")
 
-        if client is None:
-            run = functools.partial(_outcome, self._source, self._changes, paths, measures, accuracy)
-            outcomes = _parallel.in_threads(run, combinations, jobs)
-        else:
-            source = _parallel.everywhere(*self._source.arguments)
-            run = functools.partial(_portable_outcome, source, self._changes, paths, measures, accuracy)
-            outcomes = _parallel.on_dask(client, run, combinations)
+        outcomes = self._outcomes(paths, combinations, measures, accuracy, jobs, client)
         coordinates = {path: coordinate(path, axis) for path, axis in zip(paths, values)}
         if measures:
-            variables = {
-                name: (paths, np.reshape([figures[k]["found"] for figures in outcomes], shape), {"units": outcomes[0][k]["unit"]})
-                for k, name in enumerate(measures)
-            }
-            return xarray.Dataset(variables, coordinates, {"title": self.title})
+            return xarray.Dataset(_measured(outcomes, measures, paths, shape), coordinates, {"title": self.title})
         time = outcomes[0].time
         for combination, result in zip(combinations, outcomes):
             if not np.array_equal(result.time, time):
@@ -209,128 +157,158 @@ class Scene:
         }
         return xarray.Dataset(variables, coordinates, {"title": self.title})
 
+    def sample(self, values, count, measure, kind="random", seed=1, correlations={}, accuracy=None, jobs=None, client=None):
+        """Simulates the scene at points that are drawn from distributions: a Monte Carlo.
+
+        values: the distribution of each value, by path, as after `--vary` of the command: {"k1.stiffness": "normal(1 N/mm, 5 %)",
+            "s1.coulomb": "lognormal(1 N, 0.1)", "m1.mass": "1 kg:2 kg"} (uniform; "1 kg:2 kg:log" in the logarithm).
+        count: number of points.
+        measure: figures of each run, as for sweep().
+        kind: "random" for independent points, "latin" for a Latin hypercube, "sobol" for Sobol's sequence.
+        seed: the same seed draws the same points, those of the command.
+        correlations: coefficients for pairs of normal scores: {("k1.stiffness", "s1.coulomb"): 0.5}.
+        accuracy, jobs, client: as for sweep().
+
+        Returns an xarray.Dataset over the dimension "run", with the values as coordinates. Raises ValueError for a distribution that cannot be
+        read, and otherwise what sweep() raises.
+        """
+        import xarray
+
+        if kind not in ("random", "latin", "sobol"):
+            raise ValueError(f"kind must be 'random', 'latin' or 'sobol', but is {kind!r}")
+        paths = list(values)
+        measures = _texts(measure)
+        if not measures or not paths:
+            raise ValueError("a Monte Carlo needs a distribution of at least one value, and at least one measure")
+        vary = [f"{path}={distribution}" for path, distribution in values.items()]
+        correlate = [f"{one},{other}={coefficient}" for (one, other), coefficient in correlations.items()]
+        points = _rheonet.drawn_points(vary, kind, _count("count", count), seed, correlate)
+        outcomes = self._outcomes(paths, points, measures, accuracy, jobs, client)
+        coordinates = {path: coordinate("run", [point[k] for point in points]) for k, path in enumerate(paths)}
+        coordinates["run"] = np.arange(1, len(points) + 1)
+        return xarray.Dataset(_measured(outcomes, measures, ["run"], [len(points)]), coordinates, {"title": self.title})
+
+    def _outcomes(self, paths, points, measures, accuracy, jobs, client):
+        """The outcome of a run at each point."""
+        if client is None:
+            run = functools.partial(_outcome, self._source, self._changes, paths, measures, accuracy)
+            return _parallel.in_threads(run, points, jobs)
+        source = _parallel.everywhere(*self._source.arguments)
+        run = functools.partial(_portable_outcome, source, self._changes, paths, measures, accuracy)
+        return _parallel.on_dask(client, run, points)
+
     def explain(self):
         """What will be simulated, and why: what `rheonet explain --json` prints, as a dictionary. Raises SimulationError, without a
         `result`, for a scene that cannot start."""
-        explained, failure = self._reading.explain()
-        if failure is not None:
-            raise SimulationError([Diagnostic(**failure)], None)
-        return json.loads(explained)
+        return json.loads(self._reading.explain())
 
-    def _repr_svg_(self):
+    def compare(self, *others, pairs={}, progress=None):
+        """Simulates this scene and others on one time base, that of this scene as far as the shortest run goes, and takes the differences.
+
+        others: one or more scenes.
+        pairs: records that the scenes call otherwise, {"k1.force": "m.spring1.force"}: the record of this scene, and that of the other ones,
+            or a list with one for each. Then only these are compared. Without it all records of the same name are compared.
+        progress: as for run().
+
+        Returns a Comparison. Raises ValueError for scenes that cannot be compared: of translation and of rotation, say, or with
+        records that are different quantities. Raises NetlistError for a pair that names nothing, and SimulationError.
+        """
+        if not others:
+            raise TypeError("compare() takes at least one other scene")
+        _check_scenes(others)
+        scenes = [self, *others]
+        pairings = [[own, *([other] * len(others) if isinstance(other, str) else other)] for own, other in pairs.items()]
+        for pairing in pairings:
+            if len(pairing) != len(scenes):
+                raise ValueError(f"`pairs` names {len(pairing)} records of {pairing[0]!r} for {len(scenes)} scenes")
+        readings = [scene._read_again(records=[pairing[k] for pairing in pairings]) for k, scene in enumerate(scenes)]
+        return Comparison(_rheonet.Comparison(readings, pairings, _progress(progress)), [scene.title for scene in scenes])
+
+    def effects(self, runs=5, progress=None):
+        """Leaves out each physical effect (inertia, friction, ...) alone, then more and more of them together, and simulates each of these models.
+
+        runs: timed runs of each model, at least 1.
+        progress: as for run().
+
+        Returns Effects: the change of every record, and the cost. Raises SimulationError if the full model cannot be simulated.
+        """
+        return Effects(_rheonet.Effects(self._read_again(), _count("runs", runs), _progress(progress)), self.units)
+
+    def precision(self, accuracies=(), runs=5, variants=False, certified=False, models={}, pairs={}, progress=None):
+        """Simulates the scene to several accuracies, and measures error and cost of each run.
+
+        accuracies: from 1e-12 to 0.1; empty: 1e-2, 1e-3, ... 1e-11. The scene's own accuracy is always among them.
+        runs: timed runs of each, at least 1.
+        variants: also lower orders of the method, events not located, reductions switched off, smoothed sliders.
+        certified: also certified runs, with the cost of all runs that the certificate takes.
+        models: other scenes that describe the same, by name: their errors against this scene are errors of modelling.
+        pairs: records that the models call otherwise, {"k1.force": "m.spring1.force"}.
+        progress: as for run().
+
+        Returns Precision. Raises SimulationError if the reference run fails, ValueError for models that cannot be compared.
+        """
+        _check_scenes(models.values())
+        for accuracy in accuracies:
+            _check_accuracy(accuracy)
+        for record in pairs:
+            if record not in self.units:
+                raise ValueError(f"`pairs` names {record!r}, which the scene does not record")
+        records = [pairs.get(record, record) for record in self.names]
+        others = [(name, model._read_again(records=records)) for name, model in models.items()]
+        unique = sorted(set(map(float, accuracies)), reverse=True)
+        study = _rheonet.Precision(self._read_again(), unique, _count("runs", runs), variants, certified, others, [records] * len(others), _progress(progress))
+        return Precision(study)
+
+    def plot(self, y=(), *, accuracy=None, progress=None, ax=None, **options):
+        """Simulates the scene and draws it as `rheonet plot` does, with upright jumps. `y` and `options` are those of Result.plot(), but may name
+        everything that can be recorded. Returns a Figure, or `ax`.
+
+        Raises NetlistError for a record that the scene cannot have, ValueError for curves that cannot be drawn, SimulationError."""
+        options = _pictures.plot_options(y, **options)
+        records = _rheonet.records_to_plot(**options)
+        reading = self._read_again(records=records, plotted=not records)
+        result = _run(Scene(self._source, self._changes, reading), accuracy, progress=progress, both_sides=True)
+        return _pictures.plot(result._run, self._source.file, result.units, ax, options)
+
+    def report(self, *others, title=None, accuracy=None, certify=False, precision=False, progress=None):
+        """Simulates the scene, and others beside it, and makes one page of them, as `rheonet report` does: schematic, equations, plots to zoom
+        into, energy account, events.
+
+        title: of the page; None: that of the scene.
+        accuracy: as for run().
+        certify: also how accurate the result is.
+        precision: also what accuracy costs.
+        progress: as for run(), called after each scene.
+
+        Returns a Report. Raises RuntimeError if rheonet was built without the web pages, SimulationError if the scene is to be certified and
+        cannot be simulated. A run that ends early is shown up to there: see Report.failures.
+        """
+        _check_accuracy(accuracy)
+        _check_scenes(others)
+        scenes = [self, *others]
+        readings = [scene._read_again(plotted=True, measures=None) for scene in scenes]
+        heading = title if title is not None else self.title or self._source.file
+        return Report(*_rheonet.report(readings, accuracy, heading, certify, precision, _progress(progress)))
+
+    def _read_again(self, records=(), plotted=False, measures=()):
+        """Without the claims of the netlist, unless `measures` is None: they are about the scene as it stands, alone."""
+        return _read(self._source, self._changes, measures, records, plotted)
+
+    def _repr_html_(self):
         """The schematic, for Jupyter; None if the network is too large to be drawn."""
-        return self._reading.schematic()
+        svg = self._reading.schematic()
+        return svg and _pictures.image(svg, f"schematic of {self.title or self._source.file}")
 
     def __repr__(self):
         return f"<rheonet.Scene {self.title or self._source.file!r}: {len(self.names)} records, {self.start:g} s to {self.stop:g} s>"
 
 
-class Result(Mapping):
-    """The rows of a run, as a mapping from records to arrays: `result["k1.force"]` is a read-only array with the value of the record
-    at each time, in SI units. Arrays are views of memory that the result owns; they keep it alive. Call .copy() on one to change it."""
-
-    __eq__ = object.__eq__  # two results are not compared value by value
-    __hash__ = object.__hash__
-
-    def __init__(self, run, scene_units, title):
-        """Made by Scene.run()."""
-        self._run = run
-        self._units = scene_units
-        self._title = title
-        self._columns = {name: k for k, name in enumerate(scene_units)}
-
-    @property
-    def time(self):
-        """Times of the rows [s]: a read-only array of shape (rows,). Two equal times are the two sides of an event."""
-        return self._run.time
-
-    @property
-    def names(self):
-        """The records, in the order of the netlist."""
-        return list(self._units)
-
-    @property
-    def units(self):
-        """The SI unit of each record; "1" for a number."""
-        return dict(self._units)
-
-    def __getitem__(self, name):
-        """The record at each time: a read-only array of shape (rows,). Raises KeyError if `name` was not recorded."""
-        try:
-            return self._run.column(self._columns[name])
-        except KeyError:
-            raise KeyError(f"{name!r} was not recorded; `simulate.record` names what is; recorded: {', '.join(self._units)}") from None
-
-    def __iter__(self):
-        return iter(self._units)
-
-    def __len__(self):
-        """The number of records."""
-        return len(self._units)
-
-    @property
-    def events(self):
-        """A list of Event, sorted by time."""
-        return [Event(*event) for event in self._run.events]
-
-    @property
-    def summary(self):
-        """A dictionary of the run's statistics: "rows", "unknowns", "parts", "steps", "arc_steps" (of the steps, those in closed
-        form), "rejected_steps", "residual_evaluations", "jacobian_evaluations", "restarts", "events", "switched" (events of each
-        element), "ended" (time at which `simulate.stop_when` ended the run [s], or None), "wall_seconds", "cpu_seconds",
-        "notes" (remarks on the result), and
-
-        "energy_supplied", "energy_stored", "energy_dissipated": the energy account [J]; "energy_missing" is its defect;
-        "claims": for each claim of `[expect]` a dictionary of its "name", the figure "found" and its "unit", what is "claimed",
-            and whether it "holds".
-        """
-        return self._run.summary
-
-    @property
-    def certificate(self):
-        """None without `certify`. A dictionary: whether the accuracy "holds" for every record, the estimated "errors" of each
-        record ("largest" in SI, its "time" [s], "relative" to the largest magnitude), the "obstacle" to a tighter run
-        ("" if there was none), the number of "runs", and "cpu_seconds" of all of them."""
-        return self._run.certificate
-
-    def to_dataframe(self):
-        """A pandas.DataFrame with a column for each record and the time as its index. attrs["units"] holds the units."""
-        import pandas
-
-        frame = pandas.DataFrame(dict(self), pandas.Index(self.time, name="time"))
-        frame.attrs.update(title=self._title, units=self.units)
-        return frame
-
-    def to_xarray(self):
-        """An xarray.Dataset with a variable for each record over the dimension "time", and its unit in the attribute "units"."""
-        import xarray
-
-        variables = {name: ("time", self[name], {"units": unit}) for name, unit in self._units.items()}
-        return xarray.Dataset(variables, {"time": ("time", self.time, {"units": "s"})}, {"title": self._title})
-
-    def _repr_html_(self):
-        """A table of the smallest, largest and last value of each record, for Jupyter."""
-        import html
-
-        head = "<tr><th>record</th><th>unit</th><th>smallest</th><th>largest</th><th>last</th></tr>"
-        rows = "".join(
-            f"<tr><td>{html.escape(name)}</td><td>{html.escape(self._units[name])}</td>"
-            + "".join(f"<td>{value:.6g}</td>" for value in (values.min(), values.max(), values[-1]))
-            + "</tr>"
-            for name, values in (self.items() if len(self.time) else ())
-        )
-        return f"<table><caption>{html.escape(repr(self)[1:-1])}</caption><thead>{head}</thead><tbody>{rows}</tbody></table>"
-
-    def __repr__(self):
-        return f"<rheonet.Result {self._title!r}: {len(self)} records, {len(self.time)} rows>"
-
-
-def _read(source, changes, measures=None):
+def _read(source, changes, measures=None, records=(), plotted=False):
     """Reads a netlist; `measures` take the place of its claims."""
     overrides = [f"{path}={setting(value)}" for path, value in changes.items()]
-    reading = source.read(overrides, measures, _library())
+    reading = source.read(overrides, measures, _library(), list(records), plotted)
     if not reading.complete:
-        raise NetlistError(_diagnostics(reading))
+        raise NetlistError(diagnostics_of(reading))
     return reading
 
 
@@ -341,30 +319,72 @@ def _scene(source, changes):
     return scene
 
 
-def _run(reading, accuracy=None, certify=False, threads=1, progress=None):
-    finest, coarsest = 1e-12, 0.1  # as core/netlist/simulate_table.cpp
-    if accuracy is not None and not finest <= accuracy <= coarsest:
-        raise ValueError(f"accuracy must be from 1e-12 to 0.1, but is {accuracy!r}")
-    if threads < 1:
-        raise ValueError(f"threads must be at least 1, but is {threads!r}")
-    if progress is not None and not callable(progress):
-        raise TypeError(f"progress must be a function of the fraction completed, but is {progress!r}")
-    run = reading.run(accuracy, certify, threads, progress)
-    result = Result(run, reading.units, reading.title)
+def _run(scene, accuracy=None, certify=False, threads=1, progress=None, both_sides=False):
+    _check_accuracy(accuracy)
+    run = scene._reading.run(accuracy, certify, _count("threads", threads), both_sides, _progress(progress))
+    result = Result(run, scene, accuracy)
     if run.failure is not None:
         raise SimulationError([Diagnostic(**run.failure)], result)
     return result
 
 
+def _values(path, values):
+    """The values of a parameter as a list; text is one value, not a list of characters."""
+    if isinstance(values, (str, Mapping)) or np.ndim(values) == 0:
+        raise TypeError(f"the values of {path!r} must be a list, as [{values!r}], not {values!r}")
+    return list(values)
+
+
+def _check_scenes(scenes):
+    for scene in scenes:
+        if not isinstance(scene, Scene):
+            raise TypeError(f"expected a Scene, made by load() or loads(), found {scene!r}")
+
+
+def _check_accuracy(accuracy):
+    finest, coarsest = 1e-12, 0.1  # as core/netlist/simulate_table.cpp
+    if accuracy is not None and not isinstance(accuracy, numbers.Real):
+        raise TypeError(f"accuracy must be a number, but is {accuracy!r}")
+    if accuracy is not None and not finest <= accuracy <= coarsest:
+        raise ValueError(f"accuracy must be from 1e-12 to 0.1, but is {accuracy!r}")
+
+
+def _count(name, value):
+    if not isinstance(value, numbers.Integral):
+        raise TypeError(f"{name} must be a whole number, but is {value!r}")
+    if value < 1:
+        raise ValueError(f"{name} must be at least 1, but is {value!r}")
+    return value
+
+
+def _progress(progress):
+    if progress is not None and not callable(progress):
+        raise TypeError(f"progress must be a function of the fraction completed, but is {progress!r}")
+    return progress
+
+
 def _outcome(source, changes, paths, measures, accuracy, combination, progress=None):
     """A run of a sweep: its measures, or its Result."""
     changed = dict(zip(paths, combination))
+    changes = {**changes, **changed}
     try:
-        result = _run(_read(source, {**changes, **changed}, measures), accuracy, progress=progress)
+        result = _run(Scene(source, changes, _read(source, changes, measures)), accuracy, progress=progress)
     except (NetlistError, SimulationError) as error:
         error.add_note(f"in the run with {changed}")
         raise
     return result.summary["claims"] if measures else result
+
+
+def _measured(outcomes, measures, dimensions, shape):
+    """The measures of runs as variables of a data set."""
+    return {
+        name: (dimensions, np.reshape([figures[k]["found"] for figures in outcomes], shape), {"units": outcomes[0][k]["unit"]})
+        for k, name in enumerate(measures)
+    }
+
+
+def _texts(value):
+    return [value] if isinstance(value, str) else list(value or ())
 
 
 def _portable_outcome(*arguments):
@@ -375,10 +395,6 @@ def _portable_outcome(*arguments):
         portable.__notes__ = error.__notes__
         raise portable from None
     return _parallel.Rows(outcome) if isinstance(outcome, Result) else outcome
-
-
-def _diagnostics(reading):
-    return [Diagnostic(**diagnostic) for diagnostic in reading.diagnostics]
 
 
 def _library():

@@ -2,7 +2,8 @@
 
 import os
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from typing import Any, NamedTuple
+from dataclasses import dataclass
+from typing import Any, NamedTuple, TypeVar, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -13,6 +14,10 @@ __version__: str
 
 _Value = str | bool | int | float | Sequence[Any] | Mapping[str, Any]
 _Array = npt.NDArray[np.float64]
+_Path = str | os.PathLike[str]
+_Progress = Callable[[float], object] | None
+_Texts = str | Sequence[str]
+_Axes = TypeVar("_Axes")  # of matplotlib
 
 class Diagnostic(NamedTuple):
     severity: str
@@ -67,7 +72,7 @@ class Scene:
         accuracy: float | None = ...,
         certify: bool = ...,
         threads: int = ...,
-        progress: Callable[[float], object] | None = ...,
+        progress: _Progress = ...,
     ) -> Result: ...
     def sweep(
         self,
@@ -77,9 +82,94 @@ class Scene:
         jobs: int | None = ...,
         client: Any = ...,
     ) -> xarray.Dataset: ...
+    def sample(
+        self,
+        values: Mapping[str, str],
+        count: int,
+        measure: _Texts,
+        kind: str = ...,
+        seed: int = ...,
+        correlations: Mapping[tuple[str, str], float] = ...,
+        accuracy: float | None = ...,
+        jobs: int | None = ...,
+        client: Any = ...,
+    ) -> xarray.Dataset: ...
     def explain(self) -> dict[str, Any]: ...
+    def compare(self, *others: Scene, pairs: Mapping[str, _Texts] = ..., progress: _Progress = ...) -> Comparison: ...
+    def effects(self, runs: int = ..., progress: _Progress = ...) -> Effects: ...
+    def precision(
+        self,
+        accuracies: Sequence[float] = ...,
+        runs: int = ...,
+        variants: bool = ...,
+        certified: bool = ...,
+        models: Mapping[str, Scene] = ...,
+        pairs: Mapping[str, str] = ...,
+        progress: _Progress = ...,
+    ) -> Precision: ...
+    @overload
+    def plot(
+        self,
+        y: _Texts = ...,
+        *,
+        x: str = ...,
+        loop: _Texts = ...,
+        flow: _Texts = ...,
+        phase: _Texts = ...,
+        decay: _Texts = ...,
+        units: _Texts = ...,
+        names: _Texts = ...,
+        title: str = ...,
+        x_label: str = ...,
+        y_label: str = ...,
+        x_range: tuple[float, float] | None = ...,
+        y_range: tuple[float, float] | None = ...,
+        log: str = ...,
+        magnitudes: bool = ...,
+        marks: bool = ...,
+        size: tuple[float, float] | None = ...,
+        accuracy: float | None = ...,
+        progress: _Progress = ...,
+        ax: None = ...,
+    ) -> Figure: ...
+    @overload
+    def plot(
+        self,
+        y: _Texts = ...,
+        *,
+        x: str = ...,
+        loop: _Texts = ...,
+        flow: _Texts = ...,
+        phase: _Texts = ...,
+        decay: _Texts = ...,
+        units: _Texts = ...,
+        names: _Texts = ...,
+        title: str = ...,
+        x_label: str = ...,
+        y_label: str = ...,
+        x_range: tuple[float, float] | None = ...,
+        y_range: tuple[float, float] | None = ...,
+        log: str = ...,
+        magnitudes: bool = ...,
+        marks: bool = ...,
+        size: tuple[float, float] | None = ...,
+        accuracy: float | None = ...,
+        progress: _Progress = ...,
+        ax: _Axes,
+    ) -> _Axes: ...
+    def report(
+        self,
+        *others: Scene,
+        title: str | None = ...,
+        accuracy: float | None = ...,
+        certify: bool = ...,
+        precision: bool = ...,
+        progress: _Progress = ...,
+    ) -> Report: ...
 
 class Result(Mapping[str, _Array]):
+    @property
+    def scene(self) -> Scene: ...
     @property
     def time(self) -> _Array: ...
     @property
@@ -97,3 +187,146 @@ class Result(Mapping[str, _Array]):
     def certificate(self) -> dict[str, Any] | None: ...
     def to_dataframe(self) -> pandas.DataFrame: ...
     def to_xarray(self) -> xarray.Dataset: ...
+    @overload
+    def plot(
+        self,
+        y: _Texts = ...,
+        *,
+        x: str = ...,
+        loop: _Texts = ...,
+        flow: _Texts = ...,
+        phase: _Texts = ...,
+        decay: _Texts = ...,
+        units: _Texts = ...,
+        names: _Texts = ...,
+        title: str = ...,
+        x_label: str = ...,
+        y_label: str = ...,
+        x_range: tuple[float, float] | None = ...,
+        y_range: tuple[float, float] | None = ...,
+        log: str = ...,
+        magnitudes: bool = ...,
+        marks: bool = ...,
+        size: tuple[float, float] | None = ...,
+        ax: None = ...,
+    ) -> Figure: ...
+    @overload
+    def plot(
+        self,
+        y: _Texts = ...,
+        *,
+        x: str = ...,
+        loop: _Texts = ...,
+        flow: _Texts = ...,
+        phase: _Texts = ...,
+        decay: _Texts = ...,
+        units: _Texts = ...,
+        names: _Texts = ...,
+        title: str = ...,
+        x_label: str = ...,
+        y_label: str = ...,
+        x_range: tuple[float, float] | None = ...,
+        y_range: tuple[float, float] | None = ...,
+        log: str = ...,
+        magnitudes: bool = ...,
+        marks: bool = ...,
+        size: tuple[float, float] | None = ...,
+        ax: _Axes,
+    ) -> _Axes: ...
+    def report(
+        self,
+        *others: Scene,
+        title: str | None = ...,
+        certify: bool = ...,
+        precision: bool = ...,
+        progress: _Progress = ...,
+    ) -> Report: ...
+
+class Figure:
+    @property
+    def svg(self) -> str: ...
+    def save(self, path: _Path) -> None: ...
+
+class Report:
+    @property
+    def html(self) -> str: ...
+    @property
+    def failures(self) -> list[str]: ...
+    def save(self, path: _Path) -> None: ...
+
+@dataclass(frozen=True)
+class Difference:
+    largest: float
+    time: float
+    first: float
+    second: float
+    rms: float
+    scale: float
+    relative: float
+    relative_rms: float
+
+class Comparison:
+    @property
+    def names(self) -> list[str]: ...
+    @property
+    def units(self) -> dict[str, str]: ...
+    @property
+    def differences(self) -> list[dict[str, Difference]]: ...
+    @property
+    def furthest(self) -> float: ...
+    @property
+    def dissipated(self) -> list[float]: ...
+    def to_dataframe(self) -> pandas.DataFrame: ...
+    def to_xarray(self) -> xarray.Dataset: ...
+
+@dataclass(frozen=True)
+class Model:
+    without: tuple[str, ...]
+    differences: dict[str, Difference]
+    steps: int
+    cpu_seconds: float
+    failure: str
+    @property
+    def relative(self) -> float: ...
+
+class Effects:
+    @property
+    def effects(self) -> list[str]: ...
+    @property
+    def full(self) -> Model: ...
+    @property
+    def each(self) -> list[Model]: ...
+    @property
+    def steps(self) -> list[Model]: ...
+    def barest(self, within: float = ...) -> Model | None: ...
+    def to_dataframe(self) -> pandas.DataFrame: ...
+
+@dataclass(frozen=True)
+class Price:
+    accuracy: float
+    method: str
+    order: int
+    error: float
+    record: str | None
+    errors: dict[str, float]
+    meets: bool
+    cpu_seconds: float
+    cpu_lower_quartile: float
+    cpu_upper_quartile: float
+    steps: int
+    rejected_steps: int
+    residual_evaluations: int
+    jacobian_evaluations: int
+    restarts: int
+    failure: str
+
+class Precision:
+    @property
+    def prices(self) -> list[Price]: ...
+    @property
+    def cheapest(self) -> Price | None: ...
+    @property
+    def own(self) -> Price | None: ...
+    @property
+    def doubt(self) -> dict[str, float]: ...
+    def to_dataframe(self) -> pandas.DataFrame: ...

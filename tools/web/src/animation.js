@@ -1,95 +1,183 @@
-// Moves the schematic as the network moves: masses and rods shift, springs stretch, sliders show whether they stick.
+// The run as it goes on in the schematic: played, paused, slowly or at once at any time of it.
 import { element } from './dom.js';
+import { EnergyBars } from './energy-bars.js';
+import { ForceArrows } from './force-arrows.js';
 import { Labels } from './labels.js';
+import { farthestShift, MotionScale, roundBelow } from './motion-scale.js';
 import { t } from './messages.js';
-import { largestOf, number, timeShown } from './units.js';
+import { SymbolMotion } from './symbol-motion.js';
+import { Turning } from './turning.js';
+import { number, shownIn, timeShown, withUnit } from './units.js';
 
-const reach = 24; // px that the largest relative motion of a usual element takes
-const most = 2 * reach; // px that nothing goes beyond, however far it moves
-
-const median = (values) => [...values].sort((a, b) => a - b)[Math.floor((values.length - 1) / 2)];
+const lengths = [2, 4, 8, 16, 32, 64]; // s that a run may take
+const usual = 8; // s
+const stepwise = matchMedia('(prefers-reduced-motion: reduce)');
+const step = 500; // ms between two pictures, for those who do not want to see things move
+const gapOfTurning = 8; // px between the plates of a stop of a shaft where they are farthest apart
 
 export class Animation {
   constructor(host, { onframe }) {
     this.onframe = onframe;
     this.playing = false;
     this.place = 0; // of the run, 0 to 1
-    this.button = element('button', { type: 'button', class: 'play', 'aria-pressed': 'false' }, t('▶ Animate'));
-    this.button.addEventListener('click', () => this.toggle());
+    this.button = element('button', { type: 'button', class: 'play', 'aria-pressed': 'false', onclick: () => this.toggle() }, t('▶ Play'));
     this.scrub = element('input', { type: 'range', min: '0', max: '1000', value: '0', 'aria-label': t('Time') });
     this.scrub.addEventListener('input', () => {
       this.stop();
       this.place = Number(this.scrub.value) / 1000;
       this.draw();
     });
-    this.speed = element('select', { 'aria-label': t('Speed') }, [2, 4, 8, 16].map((s) => element('option', { value: String(s), selected: s === 8 }, t('in {s} s', { s }))));
+    this.speed = element('select', { 'aria-label': t('Speed') });
     this.clock = element('output', { class: 'clock' });
-    this.legend = element('span', { class: 'legend', hidden: true },
-      element('span', { class: 'key' }, element('span', { class: 'swatch stick' }), t('sticks')),
-      element('span', { class: 'key' }, element('span', { class: 'swatch slip' }), t('slips')));
+    const toggle = (name, text) => element('label', { class: 'toggle' }, element('input', { type: 'checkbox', 'data-shows': name, onchange: () => this.draw() }), ` ${text}`);
+    this.toggles = { forces: toggle('forces', t('Forces')), energy: toggle('energy', t('Energy')) };
+    this.legend = element('p', { class: 'motion-legend' });
+    this.bars = new EnergyBars(this.energy = element('div', { class: 'energy-bars', role: 'group', 'aria-label': t('Energy'), hidden: true }));
     this.host = host;
     host.hidden = true; // until there is something to move
-    host.append(this.button, this.scrub, this.speed, this.clock, this.legend);
+    host.append(this.button, this.scrub, this.clock, this.speed, ...Object.values(this.toggles), this.legend, this.energy);
+  }
+
+  shows(name) {
+    return this.toggles[name].firstChild.checked && !this.toggles[name].hidden;
   }
 
   // What is to move: the drawing and its run.
   attach(svg, data) {
+    const named = ({ scene }) => `${scene.file} ${scene.title}`;
+    const isOther = this.data && named(this.data) !== named(data);
     this.data = data;
     this.host.hidden = !data.hasCurves;
-    this.parts = svg ? [...svg.querySelectorAll('[data-element]')].map((node) => this.part(node, data.scene.ends)) : [];
-    this.rods = svg ? [...svg.querySelectorAll('path.node')].map((node) => ({ node, name: node.dataset.node })) : [];
-    this.labels = svg && new Labels(svg, this.parts, most);
-    const { scene } = data;
-    const stretched = scene.elements.filter(({ b }) => b).map(({ name }) => data.column(`${name}.displacement`)).filter(Boolean);
-    const moved = stretched.length ? stretched : data.records.filter(({ channel }) => channel === 'position').map(({ path }) => data.column(path));
-    const sizes = moved.map((column) => largestOf([column])).filter((size) => size > 0);
-    this.scale = sizes.length ? reach / median(sizes) : 0;
-    this.legend.hidden = !this.parts.some(({ slider }) => slider);
-    if (this.playing || this.place > 0) this.draw();
+    if (isOther) this.place = 0;
+    if (!svg || !data.hasCurves) {
+      this.parts = null;
+      return;
+    }
+    this.scale = new MotionScale(data);
+    if (this.svg !== svg) this.take(svg);
+    this.bounds = this.boundsOf(data.scene.elements);
+    this.wires.forEach(({ node, name }) => node.classList.toggle('runs', this.scale.runs(name)));
+    this.forces?.host.remove();
+    this.forces = new ForceArrows(svg, this.parts, data);
+    this.bars.attach(data);
+    this.toggles.forces.hidden = !this.forces.scales.size;
+    this.toggles.energy.hidden = !this.bars.energy;
+    this.showSpeeds();
+    this.showLegend();
+    this.draw();
   }
 
-  part(node, ends) {
-    const name = node.dataset.element;
-    const { left, right } = ends[name] ?? {};
-    const box = node.getBBox();
-    const slider = node.classList.contains('slider');
-    return { node, left, right, name, slider, x: box.x, width: box.width, y: box.y, height: box.height };
+  take(svg) {
+    this.svg = svg;
+    const { ends } = this.data.scene;
+    this.parts = [...svg.querySelectorAll('[data-element]')].map((node) =>
+      Object.assign(new SymbolMotion(node, ends[node.dataset.element] ?? {}), { name: node.dataset.element, slides: node.classList.contains('slider') }));
+    this.wires = [...svg.querySelectorAll('path.node')].map((node) => ({ node, name: node.dataset.node }));
+    this.turning = new Turning(svg, this.parts, this.wires, (node) => node !== 'ground' && this.scale.angle(node, 0) !== null);
+    this.labels = new Labels(svg, this.parts, farthestShift);
   }
 
-  shift(node, i) {
-    if (!node || node === 'ground') return 0;
-    const column = this.data.column(`${node}.position`);
-    const far = column && column.length ? column[Math.min(i, column.length - 1)] * this.scale : 0;
-    return most * Math.tanh(far / most);
+  // The displacements at which an element touches: as it is pressed together in the drawing, and as it is drawn apart.
+  boundsOf(elements) {
+    const bounds = new Map();
+    for (const { name, a, numbers } of elements) {
+      const part = this.parts.find((each) => each.name === name && each.node.classList.contains('stop'));
+      if (!part?.left || !part.right) continue;
+      const { lower = -Infinity, upper = Infinity } = numbers;
+      // The displacement grows as the first node nears the second one from the left.
+      bounds.set(name, part.left === a ? { pressed: upper, apart: lower, sign: 1 } : { pressed: -lower, apart: -upper, sign: -1 });
+    }
+    return bounds;
+  }
+
+  gapsOf(name, i) {
+    const bound = this.bounds.get(name);
+    const column = bound && this.data.column(`${name}.displacement`);
+    if (!column) return null;
+    const turns = this.data.records[this.data.index.get(`${name}.displacement`)].unit === 'rad';
+    const px = turns ? gapOfTurning / Math.max(...column.map(Math.abs), 1e-300) : this.scale.px;
+    const pressed = bound.sign * this.scale.at(column, i);
+    return [bound.pressed - pressed, pressed - bound.apart].map((gap) => Math.max(0, gap * px));
+  }
+
+  showSpeeds() {
+    const { start, stop } = this.data.scene;
+    const chosen = Number(this.speed.value) || usual;
+    const span = stop - start;
+    const options = lengths.map((length) => [length, span / length]);
+    if (span >= 0.5 && span <= 120 && !lengths.includes(span)) options.push([span, 1]);
+    const label = ([length, rate]) => (Math.abs(rate - 1) < 1e-9 ? `as it is (${number(length, 3)} s)`
+      : `${rate < 1 ? `${number(1 / rate, 2)} times slower` : `${number(rate, 2)} times faster`} (${number(length, 3)} s)`);
+    const key = String(span);
+    if (this.speed.dataset.span === key) return;
+    this.speed.dataset.span = key;
+    this.speed.replaceChildren(...options.sort(([a], [b]) => a - b).map((option) =>
+      element('option', { value: String(option[0]), selected: option[0] === chosen }, label(option))));
+    if (this.speed.selectedIndex < 0) this.speed.value = String(usual);
+  }
+
+  // The scales, and what the colours are.
+  showLegend() {
+    const { scale } = this;
+    const parts = [];
+    const bar = (px, text, kind) => {
+      const line = element('span', { class: `scale-bar ${kind}` });
+      line.style.width = `${px.toFixed(1)}px`;
+      return element('span', { class: 'key' }, line, text);
+    };
+    if (scale.px > 0) {
+      const metres = roundBelow(60 / scale.px);
+      const shown = shownIn('m', metres);
+      parts.push(bar(metres * scale.px, `${number(metres / shown.factor, 3)} ${shown.name}`, 'length'));
+    }
+    if (this.turning.all.length) {
+      const { turn } = scale;
+      parts.push(element('span', { class: 'key', 'data-turn': String(turn) }, '⟳ ', turn === 1 ? t('angles as they are') : turn < 1 ? t('one turn drawn is {turns} turns', { turns: number(1 / turn, 3) }) : t('angles are drawn {factor} times as large', { factor: number(turn, 3) })));
+    }
+    if (scale.drift.size) parts.push(element('span', { class: 'key' }, element('span', { class: 'swatch running' }), t('runs on beyond the drawing')));
+    if (this.parts.some(({ slides }) => slides))
+      for (const [kind, text] of [['stick', t('sticks')], ['slip', t('slips')]]) parts.push(element('span', { class: 'key' }, element('span', { class: `swatch ${kind}` }), text));
+    this.arrowKeys = this.forces.legend.map(({ px, of, unit }) => bar(px, `${withUnit(of, unit, 3)}`, 'arrow'));
+    this.legend.replaceChildren(...parts, ...this.arrowKeys);
   }
 
   draw() {
-    const { data } = this;
-    if (!data?.time.length) return;
+    const { data, scale } = this;
+    if (!this.parts || !data?.time.length) return;
     const time = data.scene.start + this.place * (data.scene.stop - data.scene.start);
     const i = data.at(time);
-    for (const { node, name } of this.rods) node.style.transform = `translateX(${this.shift(name, i).toFixed(2)}px)`;
-    for (const part of this.parts) this.drawPart(part, i);
-    this.labels?.place((node) => this.shift(node, i));
+    const shift = (node) => scale.shift(node, i);
+    for (const { node, name } of this.wires) {
+      node.style.transform = `translateX(${shift(name).toFixed(2)}px)`;
+      if (scale.runs(name)) node.style.strokeDashoffset = (-(scale.run(name, i) % 1000)).toFixed(2);
+    }
+    for (const part of this.parts) this.drawPart(part, shift, i);
+    this.turning.show((node) => scale.angle(node, i));
+    this.labels.place(shift);
+    this.forces.host.style.display = this.shows('forces') ? '' : 'none';
+    this.arrowKeys.forEach((key) => (key.hidden = !this.shows('forces')));
+    if (this.shows('forces')) this.forces.show(i, shift);
+    this.energy.hidden = !this.shows('energy');
+    if (!this.energy.hidden) this.bars.show(time);
     this.scrub.value = String(Math.round(this.place * 1000));
     const { name, factor } = timeShown(data.scene.start, data.scene.stop);
     this.clock.textContent = `${number(time / factor, 4)} ${name}`;
-    this.onframe(time);
+    this.scrub.setAttribute('aria-valuetext', this.clock.textContent);
+    if (this.playing || this.place > 0) this.onframe(time);
   }
 
-  drawPart({ node, left, right, name, slider, x, width }, i) {
-    const dl = this.shift(left ?? right, i);
-    const dr = this.shift(right ?? left, i);
-    const stretch = left && right && width > 0 ? Math.max(0.2, (width + dr - dl) / width) : 1;
-    node.style.transform = `translateX(${(x + dl - x * stretch).toFixed(2)}px) scaleX(${stretch.toFixed(4)})`;
-    if (!slider) return;
+  drawPart(part, shift, i) {
+    const { left, right, name, node } = part;
+    part.place(shift(left ?? right), shift(right ?? left), this.gapsOf(name, i));
+    if (!part.slides) return;
     const velocity = this.data.column(`${name}.velocity`);
-    const sticks = velocity && velocity[Math.min(i, velocity.length - 1)] === 0;
-    node.classList.toggle(t('sticks'), Boolean(sticks));
-    node.classList.toggle(t('slips'), Boolean(velocity) && !sticks);
+    const sticks = velocity && this.scale.at(velocity, i) === 0;
+    node.classList.toggle('sticks', Boolean(sticks));
+    node.classList.toggle('slips', Boolean(velocity) && !sticks);
   }
 
   toggle() {
+    if (this.host.hidden) return;
     if (this.playing) this.stop();
     else this.start();
   }
@@ -102,9 +190,11 @@ export class Animation {
     let before = performance.now();
     const frame = (now) => {
       if (!this.playing) return;
-      this.place = (this.place + Math.max(0, now - before) / 1000 / Number(this.speed.value)) % 1;
-      before = now;
-      this.draw();
+      if (!stepwise.matches || now - before >= step) {
+        this.place = (this.place + Math.max(0, now - before) / 1000 / Number(this.speed.value)) % 1;
+        before = now;
+        this.draw();
+      }
       requestAnimationFrame(frame);
     };
     requestAnimationFrame(frame);
@@ -112,7 +202,7 @@ export class Animation {
 
   stop() {
     this.playing = false;
-    this.button.textContent = t('▶ Animate');
+    this.button.textContent = t('▶ Play');
     this.button.setAttribute('aria-pressed', 'false');
   }
 }

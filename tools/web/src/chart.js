@@ -1,13 +1,26 @@
 // What curves over time and curves of one quantity against another have in common: axes, colours, zoom by keys.
 import uPlot from 'uplot';
 import 'uplot/dist/uPlot.min.css';
-import { onTheme, styled } from './dom.js';
-import { spaced } from './units.js';
+import { element, onTheme, styled } from './dom.js';
+import { along, spaced } from './units.js';
 
 const charts = new Set();
+const settling = 700; // ms without a change after which an axis fits its values again
+
 onTheme(() => charts.forEach((chart) => chart.repaint()));
 
 export const colour = (k) => styled(`--curve-${(k % 7) + 1}`);
+export const dashes = [[], [7, 3], [2, 2], [10, 3, 2, 3]]; // px
+export const borders = ['solid', 'dashed', 'dotted', 'dashed']; // the same, of a legend
+
+// The colour of a curve on white paper, whatever the theme of the page is.
+export function colourInPrint(k) {
+  const sheet = element('div', { 'data-theme': 'light', hidden: true });
+  document.body.append(sheet);
+  const value = getComputedStyle(sheet).getPropertyValue(`--curve-${(k % 7) + 1}`).trim();
+  sheet.remove();
+  return value;
+}
 
 // `factor`: the size of the unit along it, where that is another than that of the values.
 export function axis(label, extra = {}, factor = () => 1) {
@@ -19,7 +32,7 @@ export function axis(label, extra = {}, factor = () => 1) {
     labelFont: '12px system-ui, sans-serif',
     grid: { stroke: () => styled('--grid'), width: 1 },
     ticks: { stroke: () => styled('--grid'), width: 1 },
-    values: (_plot, splits, _axis, _space, spacing) => splits.map((value) => spaced(value / factor(), spacing / factor())),
+    values: (_plot, splits, _axis, _space, spacing) => along(splits.map((value) => value / factor()), spacing / factor()),
     ...extra,
   };
 }
@@ -48,6 +61,9 @@ export class Chart {
   constructor(host, height) {
     this.host = host;
     this.height = height;
+    this.ranges = {}; // of the axes as they are drawn
+    this.isHeld = false; // somebody wants the axes to stay
+    this.isMoving = false; // values are changing: the axes only grow
     charts.add(this);
     this.watch = new ResizeObserver(() => {
       const width = this.width();
@@ -61,12 +77,46 @@ export class Chart {
     return Math.floor(this.host.clientWidth);
   }
 
+  // The range of an axis, given the one that fits its values.
+  rangeOf(key, [min, max]) {
+    const before = this.ranges[key];
+    if (before && this.isHeld) return before;
+    this.ranges[key] = before && this.isMoving ? [Math.min(min, before[0]), Math.max(max, before[1])] : [min, max];
+    return this.ranges[key];
+  }
+
+  // While values change, neither axes nor units jump; they settle after the last change.
+  moves() {
+    this.isMoving = true;
+    clearTimeout(this.settles);
+    this.settles = setTimeout(() => {
+      this.isMoving = false;
+      if (this.plot && !this.isHeld) this.settle();
+    }, settling);
+  }
+
+  hold(on) {
+    this.isHeld = on;
+    if (!on) this.settle();
+  }
+
+  get keepsUnits() {
+    return this.isHeld || this.isMoving;
+  }
+
+  setHeight(height) {
+    if (height === this.height) return;
+    this.height = height;
+    this.plot?.setSize({ width: this.plot.width, height });
+  }
+
   repaint() {
     this.plot?.redraw(false, true);
   }
 
   destroy() {
     charts.delete(this);
+    clearTimeout(this.settles);
     this.watch.disconnect();
     this.plot?.destroy();
     this.plot = null;

@@ -53,6 +53,9 @@ export function onTheme(changed) {
   new MutationObserver(changed).observe(document.documentElement, { attributes: true, attributeFilter: ['data-theme'] });
 }
 
+// The least size of a drawing that is to be read, of its own: its smallest letters have 10 px, and are read from 9 px on.
+export const legible = 0.9;
+
 // The drawing of a network, in the colours of the page; one that is to be read is never smaller than one can read.
 export function schematicOf(scene, { read = true } = {}) {
   const host = element('div', { class: 'schematic' });
@@ -68,8 +71,8 @@ export function schematicOf(scene, { read = true } = {}) {
   const svg = host.querySelector('svg');
   svg.setAttribute('aria-label', t('Schematic of {title}', { title: scene.title || scene.file }));
   if (read) {
-    svg.style.minWidth = `${0.65 * svg.getAttribute('width')}px`;
-    svg.style.minHeight = `${0.65 * svg.getAttribute('height')}px`;
+    svg.style.minWidth = `${legible * svg.getAttribute('width')}px`;
+    svg.style.minHeight = `${legible * svg.getAttribute('height')}px`;
     host.tabIndex = 0;
     host.setAttribute('role', 'group');
     host.setAttribute('aria-label', t('Schematic'));

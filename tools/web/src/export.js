@@ -25,10 +25,10 @@ export function raster(svg) {
   });
 }
 
-// scenes: [{ text, file }], of which the active one is edited; curves: [[x, y], ...] as the plots show them; schematic: that
-// of the active one.
-export function exporters({ scenes, active, curves, schematic, name }) {
-  const figure = () => file({ task: 'figure', scenes, curves });
+// scenes: [{ text, file }], of which the active one is edited; drawn: the same of all runs in the plots, with the `curves` of each;
+// schematic: that of the active one.
+export function exporters({ scenes, active, drawn, schematic, name }) {
+  const figure = () => file({ task: 'figure', scenes: drawn });
   const drawing = () => new Blob([schematic], { type: 'image/svg+xml' });
   return [
     { label: t('Rows (CSV)'), make: () => file({ task: 'csv', ...scenes[active] }), name: `${name}.csv` },

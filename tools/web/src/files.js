@@ -137,8 +137,9 @@ export class Files {
   exports() {
     const { desk } = this;
     const scenes = desk.variants.map(({ text, file }) => ({ text, file }));
-    const curves = desk.plots.curvePairs();
-    return exporters({ scenes, active: desk.active, curves, schematic: desk.current.data.scene?.schematic ?? '', name: this.name })
+    const curves = desk.plots.drawnCurves();
+    const drawn = desk.plots.runs.map(({ text, file }, k) => ({ text, file, curves: curves[k] }));
+    return exporters({ scenes, active: desk.active, drawn, schematic: desk.current.data.scene?.schematic ?? '', name: this.name })
       .map((exporter) => ({ label: exporter.label, act: () => this.export(exporter) }))
       .concat({ label: t('Link as a QR code'), act: () => this.showCode() });
   }

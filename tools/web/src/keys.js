@@ -1,16 +1,16 @@
 // The keys of the whole page; those of a field, of a dialog or of the editor are left to them.
-export function listenToKeys({ save, play, gallery }) {
-  const acts = { ' ': play, g: gallery };
+// `acts`: what each key does, by its name.
+export function listenToKeys({ save, acts }) {
   document.addEventListener('keydown', (event) => {
     if ((event.ctrlKey || event.metaKey) && event.key === 's') {
       event.preventDefault();
       save();
       return;
     }
-    const inField = event.target.closest?.('input, textarea, select, button, summary, .cm-editor, dialog');
+    const inField = event.target.closest?.('input:not([type=range], [type=radio], [type=checkbox]), textarea, select, .cm-editor, dialog') || (event.key === ' ' && event.target.closest?.('button, summary, input'));
     if (event.target.closest?.('.cm-editor') && event.key === 'Escape') event.target.blur();
-    if (inField || event.ctrlKey || event.metaKey || event.altKey || !Object.hasOwn(acts, event.key)) return;
+    if (inField || event.ctrlKey || event.metaKey || event.altKey || !Object.hasOwn(acts, event.key.toLowerCase())) return;
     event.preventDefault();
-    acts[event.key]();
+    acts[event.key.toLowerCase()]();
   });
 }

@@ -164,7 +164,7 @@ export class Lesson {
     const isOver = this.data.done || this.data.failed;
     if (isOver && !this.judged) this.verdict.append(...this.prediction.verdict(this.runCurve()));
     this.judged ||= isOver;
-    const curves = [{ name: t('the run'), ...this.runCurve(), style: 0 }, { name: t('your prediction'), x: this.prediction.curve.x, y: this.prediction.curve.y, style: 1, dash: [6, 4] }];
+    const curves = [{ name: t('the run'), ...this.runCurve(), style: 0 }, { name: t('your prediction'), x: this.prediction.curve.x, y: this.prediction.curve.y, style: 1, dash: 1 }];
     if (this.chart) {
       this.chart.update(curves);
       return;

@@ -1,9 +1,9 @@
 // Curves of one quantity against another.
 import uPlot from 'uplot';
-import { apart, axis, Chart, colour, labelOf, read, shownOf, sideways } from './chart.js';
+import { apart, axis, borders, Chart, colour, dashes, labelOf, read, shownOf, sideways } from './chart.js';
 import { element } from './dom.js';
-import { t } from './messages.js';
-import { largestOf, number, shownIn, timeShown } from './units.js';
+import { listenToFingers } from './gestures.js';
+import { alongDecades, largestOf, number, shownIn, timeShown } from './units.js';
 
 // Where a logarithmic axis has its numbers. uPlot's own choice never ends on some ranges that do not begin at a power of ten.
 function decades(plot, axis, min, max) {
@@ -17,21 +17,20 @@ function decades(plot, axis, min, max) {
 }
 
 export class LoopChart extends Chart {
-  // curves: [{ name, time, x, y, dash }], `dash` as a canvas takes it; what is along the axes: { quantity, unit, as }, or { log: true } of both.
+  // curves: [{ name, time, x, y }]; what is along the axes: { quantity, unit, as }, or { log: true } of both.
   constructor(host, { x, y, curves, height = 380, marks = false }) {
     super(host, height);
     this.marks = marks;
     host.classList.add('chart', 'loop');
     host.tabIndex = 0;
     host.setAttribute('role', 'group');
-    host.setAttribute('aria-label', t('{y} against {x}: {names}', { y: y.quantity, x: x.quantity, names: curves.map((curve) => curve.name).join(', ') }));
+    host.setAttribute('aria-label', `${y.quantity} against ${x.quantity}: ${curves.map((curve) => curve.name).join(', ')}`);
     const log = Boolean(x.log);
     this.sides = [x, y];
     this.curves = curves;
     this.findUnits();
-    const range = (_, min, max) => (log ? [min / 2, max * 2] : shownOf(min, max, 0.08));
-    const scale = { time: false, range, distr: log ? 3 : 1 };
-    const logValues = log ? { splits: decades, filter: (_, splits) => splits, values: (_, splits) => splits.map((v) => number(v, 2)) } : {};
+    const scale = (key) => ({ time: false, distr: log ? 3 : 1, range: (_, min, max) => this.rangeOf(key, log ? [min / 2, max * 2] : shownOf(min, max, 0.08)) });
+    const logValues = log ? { splits: decades, filter: (_, splits) => splits, values: (_, splits) => alongDecades(splits) } : {};
     this.plot = new uPlot(
       {
         mode: 2,
@@ -49,7 +48,7 @@ export class LoopChart extends Chart {
             paths: (plot, s) => this.path(plot, s),
           })),
         ],
-        scales: { x: scale, y: { ...scale } },
+        scales: { x: scale('x'), y: scale('y') },
         axes: [axis(labelOf(x.quantity, this.units[0]), { space: apart, ...logValues }), axis(labelOf(y.quantity, this.units[1]), { size: sideways, ...logValues })],
         cursor: { drag: { x: true, y: true, uni: 20 }, points: { show: false } },
         legend: { show: false },
@@ -67,13 +66,14 @@ export class LoopChart extends Chart {
       'div',
       { class: 'loop-legend' },
       curves.map((curve, k) => {
-        const swatch = element('span', { class: 'swatch' });
-        swatch.style.background = `var(--curve-${((curve.style ?? k) % 7) + 1})`;
+        const swatch = element('span', { class: 'swatch line' });
+        swatch.style.borderTop = `3px ${borders[(curve.dash ?? 0) % borders.length]} var(--curve-${((curve.style ?? k) % 7) + 1})`;
         return element('span', { class: 'key' }, swatch, curve.name);
       }),
       (this.readout = element('output', { class: 'readout' })),
     );
     host.append(this.legend);
+    listenToFingers(this);
     this.plot.over.addEventListener('mousemove', () => this.hover());
     this.plot.over.addEventListener('mouseleave', () => this.hide());
   }
@@ -100,7 +100,7 @@ export class LoopChart extends Chart {
     ctx.strokeStyle = ctx.fillStyle = colour(this.curves[s - 1].style ?? s - 1);
     ctx.lineWidth = 1.6 * devicePixelRatio;
     ctx.lineJoin = 'round';
-    ctx.setLineDash((this.curves[s - 1].dash ?? []).map((length) => length * devicePixelRatio));
+    ctx.setLineDash(dashes[(this.curves[s - 1].dash ?? 0) % dashes.length].map((length) => length * devicePixelRatio));
     ctx.beginPath();
     for (let i = 0; i < xs.length; ++i) ctx.lineTo(plot.valToPos(xs[i], 'x', true), plot.valToPos(ys[i], 'y', true));
     ctx.stroke();
@@ -143,7 +143,7 @@ export class LoopChart extends Chart {
     const [xs, ys] = this.plot.data[k + 1];
     const curve = this.curves[k];
     const unit = curve.time && timeShown(curve.time[0], curve.time.at(-1));
-    const time = unit ? ` ${t('at {time}', { time: `${number(curve.time[i] / unit.factor, 5)} ${unit.name}` })}` : '';
+    const time = unit ? ` at ${number(curve.time[i] / unit.factor, 5)} ${unit.name}` : '';
     this.readout.textContent = `${curve.name}: ${read(this.plot, 'x', xs[i], 5)} ${this.units[0].name}, ${read(this.plot, 'y', ys[i], 5)} ${this.units[1].name}${time}`;
   }
 
@@ -154,13 +154,35 @@ export class LoopChart extends Chart {
 
   update(curves) {
     this.curves = curves;
-    this.findUnits();
+    this.moves();
+    if (!this.keepsUnits) this.findUnits();
+    this.label();
+    this.plot.setData(this.data());
+  }
+
+  label() {
     this.sides.forEach((side, k) => (this.plot.axes[k].label = labelOf(side.quantity, this.units[k])));
+  }
+
+  settle() {
+    this.findUnits();
+    this.label();
     this.plot.setData(this.data());
   }
 
   zoom(min, max) {
     this.plot.setScale('x', { min, max });
+  }
+
+  get isZoomed() {
+    const { min, max } = this.plot.scales.x;
+    const [low, high] = this.ranges.x ?? [min, max];
+    return min > low || max < high;
+  }
+
+  lookAt({ x, y }) {
+    this.plot.setScale('x', { min: x[0], max: x[1] });
+    this.plot.setScale('y', { min: y[0], max: y[1] });
   }
 
   reset() {

@@ -2,10 +2,13 @@
 import { language } from './language.js'; // first: the modules below have texts
 import './style.css';
 import './playground.css';
+import './motion.css';
+import './presentation.css';
 import { Animation } from './animation.js';
 import { element, schematicOf } from './dom.js';
 import { Editor } from './editor.js';
 import { choices } from './choices.js';
+import { DrawingView } from './drawing-view.js';
 import { Files } from './files.js';
 import { firstScene } from './first-scene.js';
 import { Folds } from './folds.js';
@@ -16,11 +19,13 @@ import { Lesson } from './lesson.js';
 import { menu } from './menu.js';
 import { t } from './messages.js';
 import { PlotPanel } from './plot-panel.js';
+import { Presentation } from './presentation.js';
 import { Runner } from './runner.js';
 import { SceneData } from './scene-data.js';
 import { lessonOf } from './sections.js';
 import { Sliders } from './sliders.js';
 import { followSystem, rememberTheme, switchTheme } from './theme.js';
+import { Traces } from './traces.js';
 import { runTime } from './units.js';
 
 const isEmbedded = new URLSearchParams(location.search).has('embed');
@@ -37,7 +42,8 @@ class Playground {
       onmove: (changes) => this.sliders?.move(changes),
     });
     this.sliders = new Sliders(this.parts.sliders, this.editor);
-    this.plots = new PlotPanel(this.parts.plots, { onchange: () => this.showSections() });
+    this.traces = new Traces(() => this.showPlots());
+    this.plots = new PlotPanel(this.parts.plots, { onchange: () => this.showSections(), fits: true, traces: this.traces });
     this.folds = new Folds(this.parts.sections, () => this.request());
     this.animation = new Animation(this.parts.animation, { onframe: (time) => this.plots.mark(time) });
     this.course = new Lesson(this.lesson, {
@@ -46,11 +52,23 @@ class Playground {
       onopen: (file) => this.files.openFile(file, true, true),
       onleave: (file) => this.files.openFile(file, true),
     });
+    const { presentation } = this;
     listenToKeys({
       save: () => this.files.save(),
-      play: () => this.course.isConcealing || this.animation.toggle(),
-      gallery: () => this.files.gallery.open(),
+      acts: {
+        ' ': () => this.course.isConcealing || this.animation.toggle(),
+        g: () => this.files.gallery.open(),
+        p: () => presentation.toggle(),
+        f: () => presentation.toggleScreen(),
+        e: () => presentation.toggleNetlist(),
+        r: () => this.sliders.reset(),
+        t: () => this.traces.freeze(),
+        m: () => this.plots.measure.toggle(),
+        h: () => this.plots.hold(!this.plots.isHeld),
+        escape: () => presentation.isOn && presentation.toggle(false),
+      },
     });
+    if (new URLSearchParams(location.search).has('present')) presentation.toggle(true);
   }
 
   variant(label, text, file) {
@@ -69,6 +87,7 @@ class Playground {
     const button = (text, act, extra = {}) => element('button', { type: 'button', onclick: act, ...extra }, text);
     this.parts = {};
     this.title = element('h1', {}, 'rheonet');
+    this.presentation = new Presentation({ onchange: (on) => this.present(on) });
     this.compareButton = button(t('Compare'), () => this.compare(), { 'aria-pressed': 'false' });
     this.status = element('p', { class: 'status', role: 'status' });
     this.themeButton = button('◐', switchTheme, { 'aria-label': t('Light or dark'), title: t('Light or dark') });
@@ -77,7 +96,7 @@ class Playground {
       menu(t('Save'), () => this.files.saves()),
       menu(t('Export'), () => this.files.exports()),
       button(t('Link'), () => this.files.copyLink()),
-      this.compareButton, languageChoice(), this.themeButton,
+      this.compareButton, ...this.presentation.buttons, languageChoice(), this.themeButton,
       button('?', () => this.help.showModal(), { 'aria-label': t('Help') })));
     this.choice = element('div', { class: 'variants', role: 'radiogroup', 'aria-label': t('Variant that is edited'), hidden: true });
     const box = (name, heading, ...content) => element('section', { class: `box ${name}-box`, 'aria-label': heading }, element('h2', { class: 'box-title' }, heading), ...content);
@@ -86,16 +105,26 @@ class Playground {
       // Before the stage: that is the order of the Tab key.
       box('sliders', t('Sliders'), part('sliders')),
       element('div', { class: 'stage' },
-        (this.lesson = box('lesson', t('Question'))),
-        box('schematic', t('Schematic'), part('drawing'), part('animation')),
-        box('plots', t('Plots'), this.status, part('plots')),
+        element('div', { class: 'view' },
+          (this.lesson = box('lesson', t('Question'))),
+          box('schematic', t('Schematic'), part('drawing'), part('animation')),
+          box('plots', t('Plots'), this.status, part('plots'))),
         box('more', t('More'), part('sections')))));
+    this.view = new DrawingView(this.parts.drawing);
+    this.parts.drawing.before(this.view.controls);
+    new ResizeObserver(() => document.body.style.setProperty('--bar', `${bar.offsetHeight}px`)).observe(bar);
     this.lesson.hidden = true;
     this.toast = element('p', { class: 'toast', hidden: true, 'aria-hidden': 'true' });
     host.append(this.toast);
     if (isEmbedded) this.embed(bar);
     this.help = helpDialog();
     document.body.append(this.help);
+  }
+
+  present(on) {
+    this.view.most = on ? 2.5 : 1;
+    this.view.place();
+    this.plots.fit();
   }
 
   // Part of a page of somebody else: of the tools only a way to the whole playground remains.
@@ -112,6 +141,7 @@ class Playground {
   begin({ scenes, active = scenes.length - 1, plots = {}, lesson = false }, notice = '') {
     this.endComparison();
     this.course.end();
+    this.traces.clear();
     this.plots.state = plots ?? {};
     if (notice) this.notify(notice);
     scenes.slice(1).forEach(({ text, file }) => this.variants.push(this.variant('B', text, file)));
@@ -140,6 +170,7 @@ class Playground {
   clear() {
     this.sliders.clear();
     this.parts.drawing.replaceChildren();
+    this.view.attach();
     this.parts.animation.hidden = true;
     this.drawn = null;
     this.showTitle('');
@@ -148,7 +179,8 @@ class Playground {
 
   wasRead(variant, data, read) {
     if (variant !== this.current || read !== variant.text) return;
-    this.sliders.show(data.scene.sliders, variant.fresh);
+    if (variant.fresh) variant.first = data.scene.sliders.map((knob) => ({ ...knob }));
+    this.sliders.show(data.scene.sliders, variant.fresh, variant.first);
     if (variant.fresh) this.showSchematic(data.scene);
     variant.fresh = false;
   }
@@ -243,6 +275,7 @@ class Playground {
     if (scene.schematic === this.drawn) return;
     this.drawn = scene.schematic;
     this.parts.drawing.replaceChildren(schematicOf(scene));
+    this.view.attach();
   }
 
   showLesson(scene) {
@@ -256,7 +289,9 @@ class Playground {
 
   showPlots() {
     const several = this.variants.length > 1;
-    this.plots.show(this.variants.map(({ label, data }) => ({ label: several ? label : '', data })));
+    this.traces.offer(this.current);
+    const now = this.variants.map(({ label, data, text, shown, file }) => ({ label: several ? label : this.traces.all.length ? t('now') : '', data, text: shown ?? text, file }));
+    this.plots.show([...now, ...this.traces.all]);
   }
 
   // Until all that is seen has come of the texts as they are.
@@ -321,7 +356,7 @@ class Playground {
     this.editor.load(text);
     this.clear();
     if (data.scene) {
-      if (shown === text) this.sliders.show(data.scene.sliders, true);
+      if (shown === text) this.sliders.show(data.scene.sliders, true, this.current.first);
       this.showScene(data);
       this.showMistakes(data, true);
     }

@@ -1,6 +1,8 @@
 // The plots of one or several runs: over time, or one quantity against another, with a choice of what is shown.
+import { colourInPrint, dashes } from './chart.js';
 import { element, freshId } from './dom.js';
 import { LoopChart } from './loop-chart.js';
+import { Measure } from './measure.js';
 import { t } from './messages.js';
 import { inWords } from './sections.js';
 import { TimeChart, TimeGroup } from './time-chart.js';
@@ -12,14 +14,23 @@ const kinds = [
   { id: 'flow', label: t('Force against velocity'), x: 'velocity', y: 'force' },
   { id: 'phase', label: t('Phase plane'), x: 'position', y: 'velocity' },
 ];
-const few = 6; // curves of one quantity that are shown before anyone chooses
+const leastHeight = 125; // px of a chart that is to be read
+const few = { curves: 4, panels: 3, all: 8 }; // that are shown before anyone chooses: of one quantity, panels, and curves in all
 
 const sentence = (text) => `${text[0]?.toUpperCase() ?? ''}${text.slice(1)}${/[.!?]$/.test(text) ? '' : '.'}`;
 
 export class PlotPanel {
-  constructor(host, { onchange = () => {} } = {}) {
+  // `fits`: the charts share the height of their host. `traces`: those that are kept, with their buttons.
+  constructor(host, { onchange = () => {}, fits = false, traces = null } = {}) {
     this.host = host;
     this.onchange = onchange;
+    this.fits = fits;
+    this.traces = traces;
+    this.isHeld = false;
+    this.first = 0; // panel that is shown, where there is no room for all
+    this.measure = new Measure(() => this.charts.filter((chart) => chart instanceof TimeChart));
+    this.holdButton = element('button', { type: 'button', class: 'hold', 'aria-pressed': 'false', onclick: () => this.hold(!this.isHeld), title: t('The vertical axes stay as they are (H)') }, t('Hold axes'));
+    this.nextButton = element('button', { type: 'button', class: 'next-plot', hidden: true, onclick: () => this.showNext() });
     this.kind = null; // nobody has chosen
     this.owner = null;
     this.chosen = null;
@@ -34,7 +45,8 @@ export class PlotPanel {
       const chooser = this.tools.querySelector('details[open]');
       if (chooser && !chooser.contains(event.target)) chooser.open = false;
     });
-    host.append(element('div', { class: 'plot-head' }, this.tabs, this.tools), this.body);
+    host.append(element('div', { class: 'plot-head' }, this.tabs, this.tools), this.body, this.measure.host);
+    if (fits) (this.watch = new ResizeObserver(() => this.fit())).observe(this.body);
     const name = freshId('kind');
     for (const kind of kinds) {
       const input = element('input', { type: 'radio', name, value: kind.id, checked: kind.id === 'time' });
@@ -62,6 +74,38 @@ export class PlotPanel {
     if (shape === this.shape) this.update();
     else this.build();
     this.shape = shape;
+    this.measure.show();
+  }
+
+  hold(on) {
+    this.isHeld = on;
+    this.holdButton.setAttribute('aria-pressed', String(on));
+    this.charts.forEach((chart) => chart.hold(on));
+  }
+
+  // The charts share the height that there is; where it is too little for all, some are shown at a time.
+  fit() {
+    const room = this.body.clientHeight;
+    if (!this.fits || !room || !this.charts.length) return;
+    const hosts = this.charts.map(({ host }) => host);
+    hosts.forEach((host) => (host.hidden = false));
+    const beside = hosts.map((host, k) => host.offsetHeight - this.charts[k].height); // legends
+    const most = Math.max(1, Math.floor(room / (leastHeight + Math.max(...beside))));
+    const count = Math.min(most, hosts.length);
+    this.first = Math.min(this.first, hosts.length - count);
+    const shown = hosts.map((_, k) => k >= this.first && k < this.first + count);
+    hosts.forEach((host, k) => (host.hidden = !shown[k]));
+    this.nextButton.hidden = count === hosts.length;
+    this.nextButton.textContent = t('Other plots ({count})', { count: hosts.length - count });
+    const free = room - beside.reduce((sum, height, k) => sum + (shown[k] ? height : 0), 0);
+    this.charts.forEach((chart, k) => shown[k] && chart.setHeight(Math.max(60, Math.floor(free / count) - 1)));
+    this.measure.show();
+  }
+
+  showNext() {
+    const shown = this.charts.filter(({ host }) => !host.hidden).length;
+    this.first = this.first + shown >= this.charts.length ? 0 : this.first + shown;
+    this.fit();
   }
 
   choose(choice) {
@@ -104,6 +148,11 @@ export class PlotPanel {
     if (kind.id === 'time') this.buildTime();
     else if (kind.id === 'own') this.buildOwn();
     else this.buildLoop(kind);
+    this.tools.append(...[this.nextButton, this.traces?.controls, kind.id === 'time' ? this.measure.button : null, this.holdButton].filter(Boolean));
+    if (this.isHeld) this.charts.forEach((chart) => chart.hold(true));
+    // Names that need another line take it from the charts.
+    if (this.watch) this.charts.forEach(({ host }) => host.querySelectorAll('.u-legend, .loop-legend').forEach((legend) => this.watch.observe(legend)));
+    this.fit();
   }
 
   update() {
@@ -134,8 +183,7 @@ export class PlotPanel {
         if (!panels.has(key)) panels.set(key, { x: across, y: up, curves: [] });
         const panel = panels.get(key);
         const name = this.ownCurves().every(([other]) => other === x) ? y : t('{y} against {x}', { y, x });
-        panel.curves.push({ name: label ? `${label} ${name}` : name, time: data.time, x: data.column(x), y: data.column(y),
-          style: style + run * this.ownCurves().length, data });
+        panel.curves.push({ name: label ? `${label} ${name}` : name, time: data.time, x: data.column(x), y: data.column(y), ...this.look(run, style), paths: [x, y], run, data });
       });
     });
     return [...panels.values()];
@@ -149,6 +197,12 @@ export class PlotPanel {
     }
   }
 
+  // Where there are several runs the colour tells them apart, everywhere, and the dashes tell their records apart; of a single run the
+  // colour tells its records apart.
+  look(run, record) {
+    return this.runs.length > 1 ? { style: run, dash: record } : { style: record, dash: Math.floor(record / 7) };
+  }
+
   // The records that are shown, by default those that the scene draws, or the first of each quantity that the scene itself records.
   shownPaths() {
     if (this.chosen) return this.chosen;
@@ -159,9 +213,9 @@ export class PlotPanel {
     for (const { data } of this.runs)
       data.records.slice(0, data.scene.own_records).forEach(({ path, quantity, unit }) => {
         const key = `${quantity} ${unit}`;
-        if (paths.has(path)) return;
+        if (paths.has(path) || paths.size >= few.all || (!counts.has(key) && counts.size >= few.panels)) return;
         counts.set(key, (counts.get(key) ?? 0) + 1);
-        if (counts.get(key) <= few) paths.add(path);
+        if (counts.get(key) <= few.curves) paths.add(path);
       });
     return paths;
   }
@@ -180,14 +234,12 @@ export class PlotPanel {
           name: label ? `${label} ${record.path}` : record.path,
           time: data.time,
           values: data.columns[k],
-          style: panel.names.indexOf(record.path),
-          dash: run,
+          ...this.look(run, panel.names.indexOf(record.path)),
+          paths: ['time', record.path],
+          run,
         });
       });
     });
-    // In all panels alike the colour tells records apart, or, where each panel has one record, the runs; the dashes tell runs apart.
-    const isOneEach = [...panels.values()].every(({ names }) => names.length === 1);
-    if (isOneEach) for (const { curves } of panels.values()) curves.forEach((curve) => (curve.style = curve.dash));
     return [...panels.values()];
   }
 
@@ -213,7 +265,8 @@ export class PlotPanel {
     const all = new Map();
     for (const { data } of this.runs) data.records.forEach((record) => all.set(record.path, record));
     const boxes = element('div', { class: 'boxes' });
-    const count = element('span', {}, t('Records ({shown} of {all})', { shown: [...shown].filter((path) => all.has(path)).length, all: all.size }));
+    const chosen = [...shown].filter((path) => all.has(path)).length;
+    const count = element('span', {}, t('Records ({shown} of {all})', { shown: chosen, all: all.size }));
     for (const [path, record] of all) {
       const box = element('input', { type: 'checkbox', checked: shown.has(path) });
       box.addEventListener('change', () => {
@@ -231,7 +284,7 @@ export class PlotPanel {
       for (const label of boxes.children) label.hidden = !label.dataset.path.includes(find.value.trim());
     });
     const details = element('details', { class: 'chooser', open: Boolean(this.keepOpen) }, element('summary', {}, count),
-      element('div', { class: 'chooser-body' }, all.size > 12 ? find : null, boxes));
+      element('div', { class: 'chooser-body' }, all.size > 12 ? find : null, this.ownRecordsButton(shown), boxes));
     details.addEventListener('keydown', (event) => {
       if (event.key !== 'Escape' || !details.open) return;
       details.open = false;
@@ -243,12 +296,20 @@ export class PlotPanel {
     return details;
   }
 
+  // All that the scene itself records, where only a few of them are shown.
+  ownRecordsButton(shown) {
+    const own = [...new Set(this.runs.flatMap(({ data }) => data.records.slice(0, data.scene.own_records).map(({ path }) => path)))];
+    if (own.every((path) => shown.has(path))) return null;
+    return element('button', { type: 'button', class: 'all-own', onclick: () => this.choose({ chosen: new Set([...shown, ...own]) }) }, t('All {count} that the scene records', { count: own.length }));
+  }
+
   loopCurves(kind) {
     const curves = [];
     this.runs.forEach(({ label, data }, run) => {
       const x = data.column(`${this.loopOwner}.${kind.x}`);
       const y = data.column(`${this.loopOwner}.${kind.y}`);
-      if (x && y) curves.push({ name: label ? `${label} ${this.loopOwner}` : this.loopOwner, time: data.time, x, y, style: run, data });
+      const paths = [kind.x, kind.y].map((channel) => `${this.loopOwner}.${channel}`);
+      if (x && y) curves.push({ name: label ? `${label} ${this.loopOwner}` : this.loopOwner, time: data.time, x, y, ...this.look(run, 0), paths, run, data });
     });
     return curves;
   }
@@ -276,12 +337,15 @@ export class PlotPanel {
     this.charts.push(new LoopChart(host, { x: side(kind.x), y: side(kind.y), curves: this.loopCurves(kind) }));
   }
 
-  // What is drawn, as pairs of columns: x and y.
-  curvePairs() {
-    const kind = kinds.find((known) => known.id === this.shownKind);
-    if (kind.id === 'own') return this.ownCurves();
-    if (kind.id !== 'time') return this.loopOwner ? [[`${this.loopOwner}.${kind.x}`, `${this.loopOwner}.${kind.y}`]] : [];
-    return [...this.shownPaths()].map((path) => ['time', path]);
+  // What is drawn, in the order of the runs, as it is to be drawn elsewhere: in the colours, dashes and units that are on the screen.
+  drawnCurves() {
+    const ofRuns = this.runs.map(() => []);
+    this.charts.forEach((chart, panel) => {
+      const [xUnit, yUnit] = chart.units ?? [chart.timeUnit, chart.shown];
+      for (const { name, paths: [x, y], run, style, dash } of chart.curves)
+        ofRuns[run].push({ x, y, name, panel, color: colourInPrint(style), dashes: dashes[dash % dashes.length].join(' '), x_unit: xUnit, y_unit: yUnit });
+    });
+    return ofRuns;
   }
 
   // Shows where everything is at a time.

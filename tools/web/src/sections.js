@@ -1,21 +1,21 @@
 // The parts that a page is made of, each from the data of a scene.
 import katex from 'katex';
-import 'katex/dist/katex.min.css';
 import { element, table } from './dom.js';
+import { typeset, withUnits } from './formulas.js';
 import { t } from './messages.js';
 import { priceChart } from './prices.js';
 import { TimeChart, TimeGroup } from './time-chart.js';
 import { grouped, number, runTime, spaced, timeShown, withUnit } from './units.js';
 
-// A text with what stands between backticks set as code.
-export const inWords = (text) => text.split(/(`[^`]*`)/).map((part, k) => (k % 2 ? element('code', {}, part.slice(1, -1)) : part));
+// A text with its units and formulas as in print, and what stands between backticks set as code.
+export const inWords = (text) => text.split(/(`[^`]*`)/).flatMap((part, k) => (k % 2 ? [element('code', {}, part.slice(1, -1))] : typeset(part)));
 
 // What a scene is to teach; `folded`: what can be seen and why is first to be thought about.
 export function lessonOf({ demo }, folded) {
   if (!demo) return null;
   const answer = (name, text) => (folded ? element('details', {}, element('summary', {}, name), element('p', {}, inWords(text))) : element('p', {}, element('b', {}, `${name} `), inWords(text)));
   return element('div', { class: 'lesson' },
-    element('p', { class: 'question' }, demo.question),
+    element('p', { class: 'question' }, inWords(demo.question)),
     element('p', {}, element('b', {}, `${t('Change')} `), inWords(demo.change)),
     answer(t('See'), demo.see),
     answer(t('Why'), demo.why));
@@ -41,7 +41,7 @@ export function equationsOf(scene) {
         element('h4', {}, element('code', {}, type), ` – ${summary}`),
         equation,
         symbols.length ? element('p', { class: 'symbols' }, symbols.map(([symbol, name], k) => [k ? ', ' : '', element('i', {}, symbol), ` ${name.replaceAll('_', ' ')}`])) : null,
-        notes ? element('p', { class: 'notes' }, notes) : null,
+        notes ? element('p', { class: 'notes' }, inWords(notes)) : null,
         source ? element('p', { class: 'source' }, source) : null),
     );
   }
@@ -49,7 +49,7 @@ export function equationsOf(scene) {
 }
 
 export function elementsOf(scene) {
-  const rows = scene.elements.map(({ name, type, place, values }) => [element('code', {}, name), type, place, values.replace(/ {2,}/g, ', ')]);
+  const rows = scene.elements.map(({ name, type, place, values }) => [element('code', {}, name), type, place, withUnits(values.replace(/ {2,}/g, ', '))]);
   const all = table([t('element'), t('type'), t('between'), t('values (SI)')], rows, t('Elements'));
   if (scene.element_count > scene.elements.length)
     all.append(element('p', { class: 'note' }, t('and {count} more', { count: grouped(scene.element_count - scene.elements.length) })));
@@ -143,7 +143,7 @@ export function statisticsOf(data) {
 export function claimsOf(data) {
   const claims = data.done?.claims ?? [];
   if (!claims.length) return null;
-  return table([t('claim'), t('claimed'), t('found'), t('verdict')], claims.map(({ name, claimed, found, holds }) => [name, claimed, found,
+  return table([t('claim'), t('claimed'), t('found'), t('verdict')], claims.map(({ name, claimed, found, holds }) => [withUnits(name), withUnits(claimed), withUnits(found),
     element('span', { class: holds ? 'holds' : 'fails' }, holds ? t('holds') : t('fails'))]), t('Claims'));
 }
 

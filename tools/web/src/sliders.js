@@ -1,8 +1,11 @@
 // A slider for each number of a netlist. What is moved is written into the text of the netlist, which is all there is.
 import { breakable, element } from './dom.js';
+import { typeset } from './formulas.js';
 import { t } from './messages.js';
+import { inPrint, number as inShort } from './units.js';
 
 const steps = 400;
+const main = 4; // sliders that are enough where there is little room and no demo says which matter
 const decimal = /^[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i;
 const literal = /^("(?:[^"\\]|\\.)*"|'[^']*'|[^\s,\]}#]+)/;
 
@@ -28,8 +31,12 @@ class Slider {
       this.accept();
       this.putBack();
     });
-    this.row = element('div', { class: 'slider', title: knob.description, 'data-slider': this.path },
-      element('span', { class: 'slider-name' }, breakable(knob.name)), this.range, this.number, element('span', { class: 'unit' }, breakable(knob.unit)), this.why);
+    this.undo = element('button', { type: 'button', class: 'undo', 'aria-label': t('Reset {name}', { name: label }), title: t('As the scene was opened'), onclick: () => this.reset() }, '↺');
+    this.limits = { low: element('span'), high: element('span') };
+    this.row = element('div', { class: 'slider', 'data-slider': this.path },
+      element('span', { class: 'slider-name' }, breakable(knob.name), knob.description ? element('span', { class: 'hint', title: knob.description }, ' ', typeset(knob.description)) : null),
+      element('span', { class: 'slider-way' }, this.range, element('span', { class: 'limits', 'aria-hidden': 'true' }, this.limits.low, this.limits.high)),
+      this.number, element('span', { class: 'unit' }, breakable(inPrint(knob.unit))), this.undo, this.why);
     this.show();
   }
 
@@ -96,8 +103,23 @@ class Slider {
   show() {
     this.widen();
     this.range.value = String(this.place());
-    this.range.setAttribute('aria-valuetext', `${this.knob.value} ${this.knob.unit}`);
+    for (const end of ['low', 'high']) this.limits[end].textContent = inShort(this.knob[end], 3);
+    this.undo.style.visibility = this.isChanged ? '' : 'hidden';
+    this.panel.showUndo();
+    this.range.setAttribute('aria-valuetext', `${this.knob.value} ${inPrint(this.knob.unit)}`.trim());
     if (document.activeElement !== this.number || this.panel.held) this.number.value = String(this.knob.value);
+  }
+
+  get first() {
+    return this.panel.firsts.get(`${this.knob.group}.${this.knob.name}`);
+  }
+
+  get isChanged() {
+    return this.first !== undefined && this.first !== this.knob.value;
+  }
+
+  reset() {
+    if (this.isChanged) this.slide(this.first);
   }
 
   // The number in the text, as it stands there.
@@ -134,10 +156,24 @@ export class Sliders {
     this.all = [];
     this.shape = '';
     this.held = null;
+    this.firsts = new Map();
+    this.undoAll = element('button', { type: 'button', class: 'undo-all', title: t('All numbers as the scene was opened (R)'), hidden: true, onclick: () => this.reset() }, t('↺ Reset all'));
+    host.before(this.undoAll);
   }
 
-  // Takes the sliders of a scene that was read from the text as it is.
-  show(knobs, fresh) {
+  // All numbers as the scene was opened.
+  reset() {
+    // From the last one on, so that none moves before its turn.
+    [...this.all].reverse().forEach((slider) => slider.reset());
+  }
+
+  showUndo() {
+    this.undoAll.hidden = !this.all.some((slider) => slider.isChanged);
+  }
+
+  // Takes the sliders of a scene that was read from the text as it is; `first` are those that it had when it was opened.
+  show(knobs, fresh, first = knobs) {
+    if (fresh) this.firsts = new Map(first.map(({ group, name, value }) => [`${group}.${name}`, value]));
     const shape = JSON.stringify(knobs.map(({ group, name, unit }) => [group, name, unit]));
     if (fresh || shape !== this.shape) this.build(knobs);
     else
@@ -152,6 +188,7 @@ export class Sliders {
 
   build(knobs) {
     this.held = null;
+    this.all = [];
     this.all = knobs.map((knob) => {
       const slider = new Slider(this, { ...knob });
       slider.settle(this.editor.offset(knob.line, knob.column));
@@ -159,23 +196,24 @@ export class Sliders {
     });
     const grouped = (sliders) => {
       const groups = new Map();
-      const order = (group) => (group === 'parameters' ? 0 : group === 'simulate' ? 2 : 1);
       [...sliders].sort((a, b) => order(a.knob.group) - order(b.knob.group)).forEach((slider) => {
         if (!groups.has(slider.knob.group)) groups.set(slider.knob.group, []);
         groups.get(slider.knob.group).push(slider.row);
       });
       return [...groups].map(([group, rows]) => element('fieldset', {}, element('legend', {}, breakable(group === 'simulate' ? t('run') : group)), rows));
     };
+    const order = (group) => (group === 'parameters' ? 0 : group === 'simulate' ? 2 : 1);
     // A demo says which are worth moving; the others are folded away.
     const asked = this.all.filter(({ knob }) => knob.asked).sort((a, b) => a.knob.asked - b.knob.asked);
     const others = this.all.filter(({ knob }) => !knob.asked);
     if (asked.length) {
       const fields = element('fieldset', {}, element('legend', {}, t('to move')), asked.map(({ row }) => row));
-      // Short names leave more room to move in.
-      fields.style.setProperty('--name', `${Math.min(10, 2 + Math.max(...asked.map(({ knob }) => knob.name.length)))}ch`);
       this.host.replaceChildren(fields,
         element('details', {}, element('summary', {}, t('All other numbers ({count})', { count: others.length })), grouped(others)));
     } else this.host.replaceChildren(...grouped(others));
+    const matter = asked.length ? asked : [...others].sort((a, b) => order(a.knob.group) - order(b.knob.group)).slice(0, main);
+    matter.forEach(({ row }) => row.classList.add('main'));
+    this.showUndo();
     if (!this.all.length) this.host.append(element('p', { class: 'note' }, t('The netlist has no numbers to turn.')));
   }
 

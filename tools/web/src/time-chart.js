@@ -1,12 +1,10 @@
 // Curves over time, in panels that share its axis.
 import uPlot from 'uplot';
-import { apart, axis, Chart, colour, labelOf, read, shownOf, sideways } from './chart.js';
+import { apart, axis, borders, Chart, colour, dashes, labelOf, read, shownOf, sideways } from './chart.js';
 import { breakable, styled } from './dom.js';
+import { listenToFingers } from './gestures.js';
 import { t } from './messages.js';
 import { largestOf, shownIn, timeShown } from './units.js';
-
-const dashes = [[], [7, 3], [2, 2], [10, 3, 2, 3]];
-const borders = ['solid', 'dashed', 'dotted', 'dashed']; // the same, of a legend
 
 // Curves of several runs over the times of all. At a jump a run has two rows of one time.
 function joined(runs) {
@@ -51,12 +49,12 @@ export class TimeChart extends Chart {
     host.tabIndex = 0;
     host.setAttribute('role', 'group');
     const names = curves.map((curve) => curve.name).join(', ');
-    host.setAttribute('aria-label', t('{quantity} over time: {names}. Keys: plus and minus zoom, arrows move, 0 shows all.', { quantity, names }));
+    host.setAttribute('aria-label', `${quantity} over time: ${names}. Keys: plus and minus zoom, arrows move, 0 shows all.`);
     this.quantity = quantity;
     this.unit = unit;
     this.as = as; // the unit that somebody wants
-    this.shown = as ?? shownIn(unit, largestOf(curves.map((curve) => curve.values)));
     this.curves = curves;
+    this.findUnit();
     const dashOf = (curve, k) => (curve.dash ?? Math.floor(k / 7)) % dashes.length;
     const series = curves.map((curve, k) => ({
       label: curve.name,
@@ -69,19 +67,20 @@ export class TimeChart extends Chart {
       value: (plot, value) => (value === null || value === undefined ? '–' : `${read(plot, 'y', value, 5)} ${this.shown.name}`),
     }));
     const data = this.data();
-    this.timeLabel = () => (labelled ? labelOf(t('time'), this.timeUnit) : undefined);
+    this.timeLabel = () => (labelled ? labelOf('time', this.timeUnit) : undefined);
     this.plot = new uPlot(
       {
         width: Math.max(this.width(), 240),
         height,
         series: [{ label: t('time'), value: (plot, at) => (at === null ? '–' : `${read(plot, 'x', at, 6, this.timeUnit.factor)} ${this.timeUnit.name}`) }, ...series],
-        scales: { x: { time: false }, y: { range: (_, min, max) => shownOf(min, max, 0.1) } },
+        scales: { x: { time: false }, y: { range: (_, min, max) => this.rangeOf('y', shownOf(min, max, 0.1)) } },
         axes: [axis(this.timeLabel(), { space: apart, size: labelled ? 36 : 28 }, () => this.timeUnit.factor),
-          axis(labelOf(quantity, this.shown), { size: (plot, values) => group.room(this, sideways(plot, values)) })],
+          axis(this.sideLabel(), { space: 24, size: (plot, values) => group.room(this, sideways(plot, values)) })],
         cursor: { sync: { key: group.sync.key, setSeries: false }, drag: { x: true, y: false } },
         legend: { live: true, markers: { width: 3, fill: () => 'transparent', dash: (_, k) => (k > 0 ? borders[dashOf(curves[k - 1], k - 1)] : 'solid') } },
         hooks: {
           drawClear: [(plot) => this.drawEvents(plot)],
+          draw: [(plot) => this.tellRanges(plot)],
           // The legend has a time only while somebody points at one.
           setCursor: [(plot) => host.classList.toggle('pointed', typeof plot.cursor.idx === 'number')],
           setScale: [(plot, key) => key === 'x' && this.follow(plot)],
@@ -90,6 +89,7 @@ export class TimeChart extends Chart {
       data,
       host,
     );
+    listenToFingers(this);
     host.querySelectorAll('.u-label').forEach((label) => label.replaceChildren(...breakable(label.textContent)));
   }
 
@@ -108,14 +108,46 @@ export class TimeChart extends Chart {
   // New values in place of the old ones; the zoom stays.
   update(curves, events = []) {
     const whole = this.full();
+    this.moves();
     this.curves = curves;
     this.events = events;
-    this.shown = this.as ?? shownIn(this.unit, largestOf(curves.map((curve) => curve.values)));
+    if (!this.keepsUnits) this.findUnit();
     const data = this.data();
     this.plot.axes[0].label = this.timeLabel();
-    this.plot.axes[1].label = labelOf(this.quantity, this.shown);
+    this.plot.axes[1].label = this.sideLabel();
     this.plot.setData(data, whole);
     if (!whole) this.plot.redraw();
+  }
+
+  // What is seen: the times, and the values in SI.
+  tellRanges({ scales: { x, y } }) {
+    this.host.dataset.span = `${x.min} ${x.max}`;
+    this.host.dataset.range = `${y.min * this.shown.factor} ${y.max * this.shown.factor}`;
+  }
+
+  // Beside a low chart there is room for the unit alone.
+  sideLabel() {
+    const whole = labelOf(this.quantity, this.shown);
+    return 6.5 * whole.length < this.height - 36 || !this.shown.name ? whole : `[${this.shown.name}]`;
+  }
+
+  setHeight(height) {
+    const isOther = height !== this.height;
+    super.setHeight(height);
+    if (isOther) this.plot.axes[1].label = this.sideLabel();
+    if (isOther) this.plot.redraw(false, true);
+  }
+
+  findUnit() {
+    this.shown = this.as ?? shownIn(this.unit, largestOf(this.curves.map((curve) => curve.values)));
+  }
+
+  settle() {
+    this.findUnit();
+    const { min, max } = this.plot.scales.x;
+    this.plot.axes[1].label = this.sideLabel();
+    this.plot.setData(this.data(), false);
+    this.plot.setScale('x', { min, max });
   }
 
   // All of the time is shown that there was when it was last drawn.
@@ -134,6 +166,18 @@ export class TimeChart extends Chart {
 
   zoom(min, max) {
     this.group.zoom(min, max);
+  }
+
+  get isZoomed() {
+    return !this.full();
+  }
+
+  // As far as there is something to see.
+  lookAt({ x: [min, max] }) {
+    const [start, stop] = this.span;
+    const span = Math.min(max - min, stop - start);
+    const low = Math.min(Math.max(min, start), stop - span);
+    this.zoom(low, low + span);
   }
 
   reset() {

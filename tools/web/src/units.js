@@ -3,9 +3,11 @@
 const prefixes = { '-15': 'f', '-12': 'p', '-9': 'n', '-6': 'µ', '-3': 'm', 0: '', 3: 'k', 6: 'M', 9: 'G' };
 const raised = { '-': '⁻', 0: '⁰', 1: '¹', 2: '²', 3: '³', 4: '⁴', 5: '⁵', 6: '⁶', 7: '⁷', 8: '⁸', 9: '⁹', '.': '·' };
 
+const superscript = (power) => [...String(power)].map((c) => raised[c]).join('');
+
 export function inPrint(unit) {
   if (!unit || unit === '1') return '';
-  return unit.replace(/\*/g, '·').replace(/\^(-?[\d.]+)/g, (_, power) => [...power].map((c) => raised[c]).join(''));
+  return unit.replace(/\*/g, '·').replace(/\^\(?(-?[\d.]+)\)?/g, (_, power) => superscript(power));
 }
 
 // The decimal multiple of an SI unit in which values up to `largest` are easy to read: its name and its size.
@@ -40,6 +42,31 @@ export function spaced(value, spacing, least = 2) {
   // A power of ten does not make many digits shorter.
   if (digits > 6 && size >= 1e5 && size < 1e12) return String(Number(value.toPrecision(digits)));
   return number(value, size >= 1e-3 && size < 1e5 ? digits : Math.max(digits + 1, 2));
+}
+
+// The numbers along an axis, `spacing` apart: all in one notation, with the same number of decimals.
+export function along(values, spacing) {
+  const largest = Math.max(...values.map(Math.abs), 0);
+  if (!(largest > 0) || !(spacing > 0)) return values.map((value) => number(value, 2));
+  const digit = Math.floor(Math.log10(spacing) + 1e-6);
+  const isWhole = Math.abs(spacing / 10 ** digit - Math.round(spacing / 10 ** digit)) < 1e-6;
+  const finest = isWhole ? digit : digit - 1; // 0.25 needs two decimals
+  const isLong = Math.log10(largest) - finest > 6; // too many digits for a power of ten to make it shorter
+  if ((largest >= 1e-2 || finest >= -3) && (largest < 1e5 || (isLong && largest < 1e12)))
+    return values.map((value) => (Math.abs(value) < spacing / 2 ? '0' : value.toFixed(Math.max(0, -finest))));
+  const power = Math.max(finest, Math.ceil(Math.log10(largest) - 1e-6) - 1);
+  return values.map((value) => (Math.abs(value) < spacing / 2 ? '0' : `${(value / 10 ** power).toFixed(power - finest)}·10${superscript(power)}`));
+}
+
+// The same of powers of ten.
+export function alongDecades(values) {
+  const isPlain = values.every((value) => value >= 1e-3 && value < 1e5);
+  return values.map((value) => {
+    if (isPlain) return number(value, 2);
+    const power = Math.floor(Math.log10(value) + 1e-9);
+    const factor = number(value / 10 ** power, 2);
+    return `${factor === '1' ? '' : `${factor}·`}10${superscript(power)}`;
+  });
 }
 
 export function withUnit(value, unit, digits = 4) {

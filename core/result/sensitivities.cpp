@@ -1,0 +1,232 @@
+#include "core/result/sensitivities.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+#include <tuple>
+
+#include "core/base/index.hpp"
+#include "core/base/numerics.hpp"
+#include "core/result/trajectory.hpp"
+
+namespace rheonet {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Times of the events of an element of one kind and direction.
+using EventTimes = std::map<std::tuple<std::string, std::string, int>, std::vector<double>>;
+
+struct Recorded {
+  Trajectory trajectory;
+  EventTimes events;
+};
+
+/// The runs: with the value of the scene, and with a value one or two steps away.
+enum Changed : std::size_t { base, up, up_twice, down, down_twice, changes };
+using Recordings = std::array<Recorded, changes>;
+
+int steps_of(std::size_t run) { return run == up ? 1 : run == up_twice ? 2 : run == down ? -1 : run == down_twice ? -2 : 0; }
+
+/// The event of one run that corresponds to that of another; the runs in which it does not happen have it at infinity.
+struct Shift {
+  std::array<double, changes> time;
+  double first, last;
+};
+
+/// Events whose times differ between the runs, in the order of the first.
+std::vector<Shift> shifts(const Recordings& recordings) {
+  EventTimes all;
+  for (const Recorded& r : recordings) {
+    for (const auto& [event, times] : r.events) {
+      std::vector<double>& most = all[event];
+      if (times.size() > most.size()) most = times;
+    }
+  }
+  std::vector<Shift> result;
+  for (const auto& [event, longest] : all) {
+    for (std::size_t k = 0; k < longest.size(); ++k) {
+      Shift shift{};
+      for (std::size_t r = 0; r < changes; ++r) {
+        const auto found = recordings[r].events.find(event);
+        shift.time[r] = found != recordings[r].events.end() && k < found->second.size() ? found->second[k] : infinity;
+      }
+      std::tie(shift.first, shift.last) = std::minmax({shift.time[0], shift.time[1], shift.time[2], shift.time[3], shift.time[4]});
+      if (shift.first < shift.last) result.push_back(shift);
+    }
+  }
+  std::sort(result.begin(), result.end(), [](const Shift& a, const Shift& b) { return a.first < b.first; });
+  return result;
+}
+
+/// A derivative, and what the next smaller order differs from it.
+struct DifferenceQuotient {
+  double value = 0, left = 0;
+};
+
+DifferenceQuotient central(const std::array<double, changes>& r, double change) {
+  const double near = (r[up] - r[down]) / (2 * change), far = (r[up_twice] - r[down_twice]) / (4 * change);
+  return {(4 * near - far) / 3, (near - far) / 3};
+}
+
+/// From the runs on one side alone, to the second order.
+DifferenceQuotient one_sided(const std::array<double, changes>& r, std::size_t once, std::size_t twice, double change) {
+  const double near = (r[once] - r[base]) / change, far = (r[twice] - r[base]) / (2 * change);
+  return {2 * near - far, near - far};
+}
+
+/// In which runs a row is on the side of all events on which it is in the run of the scene itself. Rows are asked for in the order of time.
+class Sides {
+ public:
+  explicit Sides(std::vector<Shift> shifts) : shifts_(std::move(shifts)) {}
+
+  std::array<bool, changes> at(double time) {
+    for (; next_ < shifts_.size() && shifts_[next_].first <= time; ++next_) around_.push_back(shifts_[next_]);
+    std::erase_if(around_, [&](const Shift& shift) { return shift.last < time; });
+    std::array<bool, changes> same;
+    same.fill(true);
+    for (const Shift& shift : around_) {
+      for (std::size_t r = 0; r < changes; ++r) same[r] = same[r] && (shift.time[r] <= time) == (shift.time[base] <= time);
+    }
+    return same;
+  }
+
+ private:
+  std::vector<Shift> shifts_, around_;
+  std::size_t next_ = 0;
+};
+
+class Comparison {
+ public:
+  Comparison(const MultipliedScene& scene, const std::string& name, const RunSettings& settings) : scene_(scene), name_(name), settings_(settings) {
+    record(base, 1);
+    const Summary& own = recordings_[base].trajectory.summary;
+    error_ = own.arc_steps == own.steps ? numerics::sensitivity_arc_error : numerics::sensitivity_tolerance;
+  }
+
+  /// What is left of the fourth order shrinks with the fourth power of the change, and the share of the runs' errors grows with its inverse.
+  Sensitivity find() {
+    double change = std::pow(error_, 1.0 / 5);
+    std::optional<Sensitivity> best;
+    for (int round = 0; round < numerics::sensitivity_rounds; ++round) {
+      for (std::size_t r = 1; r < changes; ++r) record(r, 1 + steps_of(r) * change);
+      std::optional<Compared> now = compare(change);
+      if (!now) {
+        change /= 10;
+        continue;
+      }
+      const double next = change * std::pow(now->noise / now->truncation, 1.0 / 5);
+      const bool better = !best || now->noise + now->truncation < off_;
+      if (better) {
+        off_ = now->noise + now->truncation;
+        best = std::move(now->found);
+      }
+      if (!better || !(next < change / 2)) break;
+      change = next;
+    }
+    if (!best) report_open();
+    best->runs = runs_;
+    return *std::move(best);
+  }
+
+ private:
+  struct Compared {
+    Sensitivity found;
+    double truncation = 0, noise = 0;  ///< largest relative errors: of the order of the differences, and of the runs
+  };
+
+  const MultipliedScene& scene_;
+  const std::string& name_;
+  const RunSettings& settings_;
+  Recordings recordings_;
+  int runs_ = 0;
+  double error_ = 0;  ///< of a record of a run, of its largest magnitude
+  double off_ = infinity;
+  double open_ = 0;   ///< time of a row without a derivative [s]
+
+  void record(std::size_t r, double factor) {
+    Scene scene = scene_(factor);
+    scene.output_events = false;
+    Recorded& recorded = recordings_[r];
+    recorded.events.clear();
+    const RunSettings settings{.event = [&](double time, const std::string& element, const char* what, int direction) {
+                                 recorded.events[{element, what, direction}].push_back(time);
+                               },
+                               .interrupt = settings_.interrupt,
+                               .progress = settings_.progress,
+                               .tolerance = std::min(scene.accuracy, numerics::sensitivity_tolerance),
+                               .threads = settings_.threads,
+                               .account = false};
+    recorded.trajectory = run_to_memory(scene, settings);
+    ++runs_;
+  }
+
+  /// Rows that all runs have.
+  std::size_t common_rows() const {
+    const std::vector<double>& own = recordings_[base].trajectory.times;
+    std::size_t rows = own.size();
+    for (const Recorded& r : recordings_) rows = std::min(rows, r.trajectory.times.size());
+    for (const Recorded& r : recordings_) {
+      if (std::equal(own.begin(), own.begin() + static_cast<std::ptrdiff_t>(rows), r.trajectory.times.begin())) continue;
+      throw SimulationError(fmt::format("`{}` changes the times of the rows: name a value of an element, a signal or a parameter that does not", name_));
+    }
+    return rows;
+  }
+
+  /// Nothing where a row has no derivative by this change.
+  std::optional<Compared> compare(double change) {
+    const Trajectory& own = recordings_[base].trajectory;
+    const std::size_t rows = common_rows(), records = rows > 0 ? own.rows[0].size() : 0;
+    Compared result;
+    Sensitivity& found = result.found;
+    found.change = change;
+    found.times.assign(own.times.begin(), own.times.begin() + static_cast<std::ptrdiff_t>(rows));
+    found.records.resize(records);
+    std::vector<double> left(records, 0), scale(records, 0);
+    Sides sides(shifts(recordings_));
+    for (std::size_t i = 0; i < rows; ++i) {
+      const std::array<bool, changes> same = sides.at(own.times[i]);
+      const bool above = same[up] && same[up_twice], below = same[down] && same[down_twice];
+      if (!above && !below) {
+        open_ = own.times[i];
+        return {};
+      }
+      std::vector<double>& values = found.values.emplace_back(records);
+      for (std::size_t k = 0; k < records; ++k) {
+        std::array<double, changes> r;
+        for (std::size_t s = 0; s < changes; ++s) r[s] = recordings_[s].trajectory.rows[i][k];
+        const DifferenceQuotient d = above && below ? central(r, change) : above ? one_sided(r, up, up_twice, change) : one_sided(r, down, down_twice, -change);
+        values[k] = d.value;
+        scale[k] = std::max(scale[k], std::abs(r[base]));
+        if (above && below) left[k] = std::max(left[k], std::abs(d.left));
+        if (std::abs(d.value) > found.records[k].largest) found.records[k] = {std::abs(d.value), own.times[i], 0};
+      }
+    }
+    for (std::size_t k = 0; k < records; ++k) {
+      Sensitivity::Record& record = found.records[k];
+      // Of a sine the second order leaves x^2/3!, and the fourth x^4/30.
+      const double noise = error_ * scale[k] / change, truncation = record.largest > 0 ? 6 * 6 * left[k] * left[k] / (30 * record.largest) : 0;
+      record.error = noise + truncation;
+      if (record.largest <= noise) continue;
+      result.truncation = std::max(result.truncation, truncation / record.largest);
+      result.noise = std::max(result.noise, noise / record.largest);
+    }
+    return result;
+  }
+
+  [[noreturn]] void report_open() const {
+    throw SimulationError(fmt::format("at t = {:.9g} s other events follow as soon as `{}` changes, to either side: no derivative by it exists there", open_, name_));
+  }
+};
+
+}  // namespace
+
+Sensitivity sensitivity(const MultipliedScene& scene, const std::string& name, const RunSettings& settings) { return Comparison(scene, name, settings).find(); }
+
+}  // namespace rheonet

@@ -1,0 +1,79 @@
+"""What is wrong is said by an exception whose text would mend it."""
+
+import os
+import pathlib
+
+import numpy as np
+import pytest
+
+import rheonet
+from test_scene import FRICTION, OSCILLATOR
+
+
+@pytest.fixture
+def scene():
+    return rheonet.loads(FRICTION)
+
+
+def test_a_wrong_unit_and_an_unknown_path():
+    with pytest.raises(rheonet.NetlistError, match="N/m") as error:
+        rheonet.load(OSCILLATOR, {"k1.stiffness": "2 kg"})
+    assert error.value.file is None and "k1.stiffness=2 kg" in str(error.value)
+    with pytest.raises(rheonet.NetlistError, match="nothing is called `k2`"):
+        rheonet.load(OSCILLATOR, {"k2.stiffness": 2})
+    with pytest.raises(rheonet.NetlistError, match="cannot be read: No such file"):
+        rheonet.load("no.toml")
+    with pytest.raises(TypeError, match="a netlist holds numbers, text, lists and dictionaries"):
+        rheonet.load(OSCILLATOR, {"k1.stiffness": 2j})
+
+
+def test_a_wrong_shape(scene):
+    for values in (2.0, "2 N/m", np.float64(3), {"sine": 1}):
+        with pytest.raises(TypeError, match="the values of 'k1.stiffness' must be a list"):
+            scene.sweep({"k1.stiffness": values})
+    with pytest.raises(ValueError, match="at least one value"):
+        scene.sweep({"k1.stiffness": []})
+    with pytest.raises(rheonet.NetlistError) as error:
+        scene.sweep({"k1.stiffness": np.ones((2, 2))}, "max(s1.force)")
+    assert "in the run with" in error.value.__notes__[0]
+
+
+def test_wrong_arguments(scene):
+    for wrong, kind, text in (
+        ({"accuracy": "fine"}, TypeError, "accuracy must be a number"),
+        ({"accuracy": 1.0}, ValueError, "from 1e-12 to 0.1"),
+        ({"threads": 0}, ValueError, "threads must be at least 1"),
+        ({"threads": 1.5}, TypeError, "threads must be a whole number"),
+        ({"progress": 3}, TypeError, "progress must be a function"),
+    ):
+        with pytest.raises(kind, match=text):
+            scene.run(**wrong)
+    for study in (lambda: scene.compare("other.toml"), lambda: scene.report("other.toml"), lambda: scene.precision(models={"x": "other.toml"})):
+        with pytest.raises(TypeError, match="expected a Scene, made by load"):
+            study()
+    with pytest.raises(TypeError, match="unexpected keyword argument 'colour'"):
+        scene.plot(colour="red")
+    with pytest.raises(ValueError, match="`--log z` names no axes"):
+        scene.plot(log="z")
+
+
+def test_a_full_disk(scene):
+    if not pathlib.Path("/dev/full").exists():
+        pytest.skip("/dev/full is missing")
+    figure, report = scene.plot("s1.force"), scene.report()
+    with pytest.raises(OSError, match="No space left"):
+        report.save("/dev/full")
+    full = pathlib.Path("/dev/full").resolve()
+    os.chdir("/")
+    with pytest.raises(ValueError, match="saved as .svg or .png"):
+        figure.save(full)
+
+
+def test_an_error_in_progress_ends_a_study(scene):
+    def fail(_):
+        raise ZeroDivisionError("of the caller")
+
+    slow = rheonet.loads(FRICTION, {"simulate.stop": 1e4, "simulate.method": "ida"})
+    for study in (slow.run, lambda **more: slow.compare(slow, **more), slow.effects, slow.precision):
+        with pytest.raises(ZeroDivisionError, match="of the caller"):
+            study(progress=fail)

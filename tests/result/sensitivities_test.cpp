@@ -1,0 +1,135 @@
+// Derivatives of records by values of the netlist, against closed forms and identities.
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include <cmath>
+#include <functional>
+#include <string>
+
+#include "core/netlist/read.hpp"
+#include "core/network/component.hpp"
+#include "core/result/sensitivities.hpp"
+#include "tests/support/simulate.hpp"
+
+using namespace rheonet;
+
+namespace {
+
+Sensitivity by(const std::string& toml, const std::string& path) {
+  const auto multiplied = [&](double factor) {
+    ReadOptions options;
+    options.overrides = {fmt::format("{}*={:.17g}", path, factor)};
+    ReadResult read = read_scene_text(toml, "scene.toml", ".", declarations(), options);
+    if (!read.scene) throw std::runtime_error(read.diagnostics.front().message);
+    return *std::move(read.scene);
+  };
+  return sensitivity(multiplied, path);
+}
+
+/// Largest difference of a record's derivative from a closed form, of the largest magnitude of that. Also checks that the stated error covers it.
+double off(const Sensitivity& found, std::size_t record, const std::function<double(double)>& exact) {
+  double largest = 0, scale = 0;
+  for (std::size_t i = 0; i < found.times.size(); ++i) {
+    const double x = exact(found.times[i]);
+    largest = std::max(largest, std::abs(found.values[i][record] - x));
+    scale = std::max(scale, std::abs(x));
+  }
+  REQUIRE(scale > 0);
+  CHECK(largest <= 5 * found.records[record].error);
+  return largest / scale;
+}
+
+constexpr double k = 13.7, m = 0.83, v = 0.11, Fc = 0.9, Fs = 1.43;
+
+const std::string stick_slip = fmt::format(R"([elements]
+pull = {{ type = "motion", at = "end", velocity = {} }}
+spring = {{ type = "spring", between = ["end", "body"], stiffness = {} }}
+body = {{ type = "mass", at = "body", mass = {} }}
+rub = {{ type = "slider", between = ["body", "ground"], coulomb = {}, breakaway = {} }}
+[simulate]
+stop = 9
+output = {{ points = 301 }}
+record = ["body.position", "spring.force"]
+)",
+                                           v, k, m, Fc, Fs);
+
+}  // namespace
+
+TEST_CASE("derivatives of an oscillation after a hundred periods") {
+  const double x0 = 0.017, w = std::sqrt(k / m);
+  const std::string toml = fmt::format(R"([parameters]
+m = {}
+[elements]
+body = {{ type = "mass", at = "body", mass = "m" }}
+spring = {{ type = "spring", between = ["body", "ground"], stiffness = "{} N/m" }}
+[nodes]
+body = {{ position = {} }}
+[simulate]
+stop = 155
+output = {{ points = 401 }}
+record = ["body.position", "spring.force"]
+)",
+                                       m, k, x0);
+  CHECK(off(by(toml, "spring.stiffness"), 0, [&](double t) { return -x0 * std::sin(w * t) * w * t / 2; }) < 1e-8);
+  CHECK(off(by(toml, "parameters.m"), 0, [&](double t) { return x0 * std::sin(w * t) * w * t / 2; }) < 1e-8);
+  CHECK(off(by(toml, "nodes.body.position"), 1, [&](double t) { return k * x0 * std::cos(w * t); }) < 1e-8);
+}
+
+TEST_CASE("derivatives across events: the first slip begins later with more static friction") {
+  const double w = std::sqrt(k / m), first = Fs / (k * v), slipped = first + 0.9 / w;
+  const auto exact = [&](double t) {
+    if (t <= first) return 0.0;
+    if (t > slipped) return std::nan("");
+    const double s = t - first;
+    return Fs * (-std::cos(w * s) / k - ((Fs - Fc) / k * w * std::sin(w * s) - v * std::cos(w * s)) / (k * v));
+  };
+  const Sensitivity found = by(stick_slip, "rub.breakaway");
+  double largest = 0;
+  for (std::size_t i = 0; i < found.times.size() && found.times[i] <= slipped; ++i) {
+    largest = std::max(largest, std::abs(found.values[i][0] - exact(found.times[i])));
+  }
+  CHECK(largest < 1e-8 * Fs / k);
+}
+
+// All strengths times a factor: the motion stays, and the forces are multiplied by it. The derivatives by their logarithms add up to that.
+TEST_CASE("derivatives by all masses, stiffnesses and friction forces together follow from scaling") {
+  std::vector<Sensitivity> parts;
+  for (const char* path : {"spring.stiffness", "body.mass", "rub.coulomb", "rub.breakaway"}) parts.push_back(by(stick_slip, path));
+  const test::RunTable rows = test::simulate(stick_slip, 1e-9);
+  double position = 0, force = 0, largest = 0;
+  for (std::size_t i = 0; i < parts[0].times.size(); ++i) {
+    double x = 0, f = 0;
+    for (const Sensitivity& part : parts) {
+      x += part.values[i][0];
+      f += part.values[i][1];
+      largest = std::max(largest, std::abs(part.values[i][1]));
+    }
+    position = std::max(position, std::abs(x));
+    force = std::max(force, std::abs(f - rows["spring.force"][i]));
+  }
+  CHECK(position < 1e-7 * largest / k);
+  CHECK(force < 1e-7 * largest);
+}
+
+TEST_CASE("derivatives of a law that IDA solves") {
+  const double B = 0.61, v0 = 1.9;
+  const std::string toml = fmt::format(R"([elements]
+body = {{ type = "mass", at = "body", mass = {} }}
+oil = {{ type = "dashpot", between = ["body", "ground"], damping = {}, flow_index = 0.5 }}
+[nodes]
+body = {{ velocity = {} }}
+[simulate]
+stop = 2
+output = {{ points = 101 }}
+record = ["body.velocity"]
+)",
+                                       m, B, v0);
+  CHECK(off(by(toml, "oil.damping"), 0, [&](double t) {
+          const double lost = B * t / (2 * m);
+          return -2 * (std::sqrt(v0) - lost) * lost;
+        }) < 1e-5);
+}
+
+TEST_CASE("derivatives by what changes the times of the rows do not exist") {
+  CHECK_THROWS_WITH_AS(by(stick_slip, "simulate.stop"), doctest::Contains("changes the times of the rows"), SimulationError);
+}

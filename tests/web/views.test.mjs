@@ -1,0 +1,311 @@
+// What one sees of the playground at once, and what one reads from its plots.
+import assert from 'node:assert/strict';
+import { readFileSync } from 'node:fs';
+import { test } from 'node:test';
+import { netlist, number, redrawn, setUp, slider } from './desk.mjs';
+import { accessible } from './support.mjs';
+
+// An oscillator of 1 Hz that starts at 10 mm, with more records than one wants to see at first.
+const oscillator = `title = "Oscillator"
+
+[parameters]
+m = "1 kg" # of the block
+k = "39.4784176 N/m" # soft: 2 pi a second, with m at 1 kg
+B = "0.2 N*s/m"
+
+[elements]
+block = { type = "mass", at = "block", mass = "m" }
+spring = { type = "spring", between = ["block", "ground"], stiffness = "k" }
+loss = { type = "dashpot", between = ["block", "ground"], damping = "B" }
+
+[nodes]
+block = { position = "10 mm" }
+
+[simulate]
+stop = "4 s"
+output = { every = "2 ms" }
+record = ["block.position", "block.velocity", "spring.force", "loss.force", "spring.displacement", "loss.displacement", "spring.velocity", "loss.velocity",
+  "block.force", "spring.power"]
+
+[demo]
+question = "How long is a period of sqrt(k/m)?"
+change = "The stiffness k, in N/m, and B up to 3 N*s/m."
+see = "More stiffness, more swings."
+why = "The period is 2 pi sqrt(m/k), and zeta = B/(2 sqrt(k m))."
+sliders = { k = ["10 N/m", "200 N/m"], B = ["0 N*s/m", "3 N*s/m"] }
+`;
+// Rotation in a unit of its own.
+const turning = `domain = "rotation"
+[elements]
+drive = { type = "motion", at = "shaft", velocity = { ramp = "100 rad/s^2" } }
+loss = { type = "dashpot", between = ["shaft", "ground"], damping = "1 mN*m*s/rad" }
+[simulate]
+stop = "0.5 s"
+record = ["shaft.velocity", "loss.force"]
+[plot]
+y = ["shaft.velocity", "loss.force"]
+unit = ["rpm"]
+`;
+// A row that is much wider than a phone.
+const wide = `[elements]
+pull = { type = "force", at = "n0", force = "1 N" }
+${[...Array(12).keys()].map((k) => `s${k} = { type = "spring", between = ["n${k}", "${k < 11 ? `n${k + 1}` : 'ground'}"], stiffness = 1 }`).join('\n')}
+[simulate]
+stop = 1
+record = ["s0.force"]
+`;
+const desk = setUp({ 'oscillator.toml': oscillator, 'turning.toml': turning, 'wide.toml': wide });
+const { open } = desk;
+const file = '#file=oscillator.toml';
+
+// Parts that are not wholly on the screen.
+const beyond = (page, selectors) => page.evaluate((all) => all.filter((selector) => [...document.querySelectorAll(selector)].filter((node) => node.getClientRects().length).some((node) => {
+  const { left, right, top, bottom } = node.getBoundingClientRect();
+  return left < -0.5 || top < -0.5 || right > innerWidth + 0.5 || bottom > innerHeight + 0.5;
+})), selectors);
+
+test('schematic and plots share the screen, with no plot below the fold', async () => {
+  for (const [width, height] of [[1024, 768], [1440, 900]]) {
+    const { page, close } = await open(file, { viewport: { width, height } });
+    assert.deepEqual(await beyond(page, ['.drawing svg', '.animation', '.plots .chart']), [], `${width} x ${height}`);
+    assert.ok((await page.locator('.plots .chart:visible').first().boundingBox()).height >= 100);
+    // What there is no room for is one click away.
+    const names = () => page.locator('.plots .chart:visible').evaluateAll((charts) => charts.map((chart) => chart.getAttribute('aria-label')));
+    const first = await names();
+    if (await page.locator('.next-plot').isVisible()) {
+      await page.locator('.next-plot').click();
+      assert.notDeepEqual(await names(), first);
+    }
+    await close();
+  }
+});
+
+test('the presentation has question, schematic, plot and sliders on one screen, and the netlist one click away', async () => {
+  for (const [width, height] of [[1024, 768], [390, 844], [844, 390]]) {
+    const { page, close } = await open(file, { viewport: { width, height } });
+    await page.locator('button.present').click();
+    const what = `${width} x ${height}`;
+    await page.waitForFunction(() => document.querySelector('.plots .chart canvas').getBoundingClientRect().height > 50);
+    assert.deepEqual(await beyond(page, ['.question', '.drawing', '.animation', '.plots .chart', '[data-slider] input[type="range"]', '.bar button']), [], what);
+    assert.ok(await page.evaluate(() => document.documentElement.scrollHeight <= innerHeight && document.documentElement.scrollWidth <= innerWidth), what);
+    assert.deepEqual(await page.evaluate(() => [...document.querySelectorAll('.sliders, .plots-box .plots .plots, .lesson-box')].filter((part) => part.scrollHeight > part.clientHeight + 1).map((part) => part.className)), [], what);
+    for (const part of ['.question', '.drawing svg', '.plots .chart canvas', '[data-slider="parameters.k"] input[type="range"]']) assert.ok(await page.locator(part).first().isVisible(), `${what}: ${part}`);
+    assert.equal(await page.locator('.editor').isVisible(), false);
+    await page.locator('button', { hasText: 'Netlist' }).click();
+    assert.ok(await page.locator('.editor').isVisible());
+    await page.locator('button', { hasText: 'Netlist' }).click();
+    await redrawn(page, () => slider(page, 'parameters.k').press('ArrowRight'));
+    await accessible(page, `presentation, ${what}`);
+    await page.keyboard.press('Escape');
+    assert.ok(await page.locator('.editor').isVisible());
+    await close();
+  }
+});
+
+test('keys present, open the netlist and come back, and the help lists them', async () => {
+  const { page, close } = await open(file);
+  await page.evaluate(() => document.activeElement.blur());
+  const isPresenting = () => page.evaluate(() => document.body.classList.contains('presenting'));
+  await page.keyboard.press('p');
+  assert.ok(await isPresenting());
+  await page.keyboard.press('e');
+  assert.ok(await page.locator('.editor').isVisible());
+  await page.keyboard.type('p'); // into the netlist
+  assert.ok(await isPresenting());
+  await page.keyboard.press('Control+z');
+  await page.keyboard.press('Escape');
+  await page.keyboard.press('p');
+  assert.equal(await isPresenting(), false);
+  await page.locator('button[aria-label="Help"]').click();
+  const help = await page.locator('dialog.help').textContent();
+  for (const said of ['Ppresent', 'Ffull screen', 'Ethe netlist', 'Rall numbers', 'Tfreeze', 'Mmeasure', 'Hhold']) assert.ok(help.includes(said), said);
+  await close();
+});
+
+// The range of the vertical axis of the first plot that is drawn, in its unit.
+const heights = (page) => page.locator('.plots .chart').first().getAttribute('data-range').then((text) => text.split(' ').map(Number));
+
+test('the vertical axis only grows while a slider moves, settles after, and stays where it is held', async () => {
+  const { page, close } = await open(file);
+  const move = (value) => redrawn(page, async () => {
+    await number(page, 'parameters.B').fill(String(value));
+    await number(page, 'parameters.B').press('Enter');
+  });
+  await page.locator('.chooser summary').click();
+  for (const path of ['block.velocity', 'spring.force', 'loss.force', 'block.position', 'spring.displacement', 'loss.displacement', 'spring.velocity', 'loss.velocity', 'block.force', 'spring.power'])
+    await page.locator(`[data-path="${path}"] input`).setChecked(path === 'loss.force');
+  await page.keyboard.press('Escape');
+  const [, high] = await heights(page);
+  await move(0.02); // a tenth of the force
+  assert.equal((await heights(page))[1], high);
+  await page.waitForTimeout(1200);
+  const settled = await page.locator('.plots .chart').first().getAttribute('data-range');
+  assert.notEqual(settled.split(' ')[1], String(high));
+  await page.locator('button.hold').click();
+  await move(3);
+  await page.waitForTimeout(1200);
+  assert.equal(await page.locator('.plots .chart').first().getAttribute('data-range'), settled);
+  await page.locator('button.hold').click();
+  assert.notEqual(await page.locator('.plots .chart').first().getAttribute('data-range'), settled);
+  await close();
+});
+
+test('two cursors measure differences, peaks and the period', async () => {
+  const { page, close } = await open(file);
+  await page.locator('button.measure').click();
+  const cursor = (k) => page.locator('[role="slider"]', { hasText: String(k) }).first();
+  const row = async (name) => page.locator('.measured tr', { hasText: name }).first().locator('td').allTextContents();
+  assert.match(await page.locator('.measured .apart').textContent(), /2 s apart, 0\.5 Hz/); // from 1 s to 3 s
+  const [, first, second, difference, highest, , period] = await row('block.position');
+  // x = 10 mm exp(-0.1 t) cos(w t), nearly.
+  const expected = (t) => 10 * Math.exp(-0.1 * t) * Math.cos(Math.sqrt(39.4784176 - 0.01) * t);
+  assert.ok(Math.abs(Number.parseFloat(first) - expected(1)) < 0.03, first);
+  assert.ok(Math.abs(Number.parseFloat(second) - expected(3)) < 0.03, second);
+  assert.ok(Math.abs(Number.parseFloat(difference) - (expected(3) - expected(1))) < 0.05, difference);
+  assert.match(highest, /^9\.0\d* mm at /);
+  assert.ok(Math.abs(Number.parseFloat(period) - 1) < 0.01, period);
+  await cursor(1).focus();
+  for (let k = 0; k < 5; ++k) await page.keyboard.press('PageUp');
+  assert.match(await page.locator('.measured .apart').textContent(), /^Cursors 1 s apart/);
+  // By the mouse, which zooms nothing meanwhile.
+  const box = await page.locator('.plots .chart .u-over').first().boundingBox();
+  const at = async (part) => [box.x + part * box.width, box.y + box.height / 2];
+  await page.mouse.move(...await at(0.75));
+  await page.mouse.down();
+  await page.mouse.move(...await at(0.9), { steps: 4 });
+  await page.mouse.up();
+  assert.ok(Math.abs(Number(await cursor(2).getAttribute('aria-valuenow')) - 3.6) < 0.03);
+  await accessible(page, 'measuring');
+  await close();
+});
+
+async function exported(page) {
+  await page.locator('button', { hasText: 'Export' }).click();
+  const [download] = await Promise.all([page.waitForEvent('download'), page.locator('[role="menuitem"]', { hasText: 'Plots (SVG)' }).click()]);
+  return readFileSync(await download.path(), 'utf8');
+}
+
+test('frozen curves have the colours of their runs everywhere, in an export too', async () => {
+  const { page, close } = await open(file);
+  await page.locator('button.freeze').click();
+  await redrawn(page, async () => {
+    await number(page, 'parameters.B').fill('2');
+    await number(page, 'parameters.B').press('Enter');
+  });
+  await page.locator('button.freeze').click();
+  await redrawn(page, async () => {
+    await number(page, 'parameters.B').fill('1');
+    await number(page, 'parameters.B').press('Enter');
+  });
+  const legend = await page.locator('.plots .chart').first().locator('.u-label').allTextContents();
+  const now = legend.filter((name) => name.startsWith('now '));
+  assert.ok(legend.some((name) => name.startsWith('first ')) && legend.some((name) => name.startsWith('B = 2 N·s/m ')), legend.join());
+  const colours = await page.locator('.plots .chart .u-series').evaluateAll((all) => all.map((series) =>
+    [series.querySelector('.u-label').textContent.split(' ')[0], getComputedStyle(series.querySelector('.u-marker')).borderTopColor]).filter(([name]) => name !== 'time'));
+  const of = (name) => [...new Set(colours.filter(([run]) => run === name).map(([, colour]) => colour))];
+  assert.deepEqual([of('now'), of('first'), of('B')], [['rgb(0, 114, 178)'], ['rgb(213, 94, 0)'], ['rgb(0, 158, 115)']]);
+  const svg = await exported(page);
+  assert.ok(svg.includes(`>${now[0]}<`), now[0]);
+  for (const colour of ['#0072b2', '#d55e00', '#009e73']) assert.ok(svg.includes(`stroke="${colour}"`), colour);
+  assert.equal(/stroke="#(cc79a7|56b4e9|e69f00)"/.test(svg), false);
+  await page.locator('button.thaw').click();
+  assert.equal(await page.locator('.u-label', { hasText: 'first' }).count(), 0);
+  await close();
+});
+
+test('an export has the units of the screen, in dark pages the colours of light ones', async () => {
+  const { page, close } = await open('#file=turning.toml', { colorScheme: 'dark' });
+  const svg = await exported(page);
+  for (const said of ['angular velocity [rpm]', 'torque [mN·m]', 'stroke="#0072b2"']) assert.ok(svg.includes(said), said);
+  await close();
+});
+
+test('of many records a few are shown, and the others are one click away', async () => {
+  const { page, close } = await open(file);
+  const shown = () => page.locator('.plots .chart .u-series:not(:first-child)').count();
+  assert.ok((await shown()) <= 8 && (await page.locator('.plots .chart').count()) <= 3, String(await shown()));
+  await page.locator('.chooser summary').click();
+  await page.locator('button.all-own').click();
+  assert.equal(await shown(), 10);
+  await close();
+});
+
+test('letters of a schematic are never too small, and it can be zoomed and moved', async () => {
+  const { page, close } = await open('#file=wide.toml', { viewport: { width: 390, height: 844 }, hasTouch: true });
+  const letters = () => page.locator('.drawing text').evaluateAll((all) => Math.min(...all.map((text) => text.getBoundingClientRect().height)));
+  const size = () => page.locator('.drawing svg').evaluate((svg) => svg.getBoundingClientRect().width / svg.viewBox.baseVal.width * 10); // of its smallest letters, px
+  assert.ok((await size()) >= 9, String(await size()));
+  const before = await letters();
+  await page.locator('.zoom button', { hasText: '+' }).click();
+  assert.ok((await letters()) > before * 1.1);
+  await page.locator('.zoom button', { hasText: 'Fit' }).click();
+  assert.ok(await page.locator('.drawing .schematic').evaluate((host) => host.scrollWidth <= host.clientWidth + 1));
+  // Two fingers that go apart to twice their distance.
+  const zoomed = await page.locator('.drawing').evaluate((host) => {
+    const { left, top } = host.getBoundingClientRect();
+    const touch = (id, x) => new Touch({ identifier: id, target: host, clientX: left + x, clientY: top + 20 });
+    const send = (type, ...xs) => host.dispatchEvent(new TouchEvent(type, { bubbles: true, cancelable: true, touches: xs.map((x, k) => touch(k, x)) }));
+    const width = () => host.querySelector('svg').getBoundingClientRect().width;
+    const first = width();
+    send('touchstart', 100, 150);
+    send('touchmove', 75, 175);
+    send('touchend');
+    return width() / first;
+  });
+  assert.ok(Math.abs(zoomed - 2) < 0.05, String(zoomed));
+  await close();
+});
+
+test('two fingers zoom a plot, and one moves it then', async () => {
+  const { page, close } = await open(file, { viewport: { width: 390, height: 844 }, hasTouch: true });
+  const scale = () => page.locator('.plots .chart').first().getAttribute('data-span').then((text) => text.split(' ').map(Number));
+  const send = (list) => page.locator('.plots .chart .u-over').first().evaluate((over, events) => {
+    const { left, top, width } = over.getBoundingClientRect();
+    for (const [type, ...parts] of events)
+      over.dispatchEvent(new TouchEvent(type, { bubbles: true, cancelable: true, touches: parts.map((part, k) => new Touch({ identifier: k, target: over, clientX: left + part * width, clientY: top + 20 })) }));
+  }, list);
+  const settled = () => page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
+  await send([['touchstart', 0.5], ['touchmove', 0.2], ['touchend']]); // the page's, not the plot's
+  await settled();
+  assert.deepEqual(await scale(), [0, 4]);
+  await send([['touchstart', 0.4, 0.6], ['touchmove', 0.3, 0.7], ['touchend']]);
+  await settled();
+  let [low, high] = await scale();
+  assert.ok(Math.abs(low - 1) < 0.05 && Math.abs(high - 3) < 0.05, `${low} ${high}`);
+  await send([['touchstart', 0.5], ['touchmove', 0.75], ['touchend']]);
+  await settled();
+  [low, high] = await scale();
+  assert.ok(Math.abs(low - 0.5) < 0.05 && Math.abs(high - 2.5) < 0.05, `${low} ${high}`);
+  await close();
+});
+
+test('sliders say what they stand for and how far they go, and go back', async () => {
+  const { page, close } = await open(file);
+  const row = page.locator('[data-slider="parameters.k"]');
+  assert.match(await row.locator('.hint').textContent(), /soft: 2 ?π? ?.*second/);
+  assert.deepEqual(await row.locator('.limits span').allTextContents(), ['10', '200']);
+  assert.equal(await row.locator('.unit').textContent(), 'N/m');
+  assert.equal(await page.locator('[data-slider="parameters.B"] .unit').textContent(), 'N·s/m');
+  const before = await netlist(page);
+  assert.equal(await page.locator('.undo-all').isVisible(), false);
+  await redrawn(page, () => slider(page, 'parameters.k').press('End'));
+  await redrawn(page, () => slider(page, 'parameters.B').press('End'));
+  assert.notEqual(await netlist(page), before);
+  await redrawn(page, () => row.locator('.undo').click());
+  assert.match(await netlist(page), /k = "39\.4784176 N\/m"[^]*B = "3 N\*s\/m"/);
+  await redrawn(page, () => page.locator('.undo-all').click());
+  assert.equal(await netlist(page), before);
+  await close();
+});
+
+test('units and formulas of a lesson are set as in print', async () => {
+  const { page, close } = await open(file);
+  const lesson = page.locator('.lesson');
+  assert.match(await lesson.locator('.question').textContent(), /How long is a period of/);
+  assert.equal(await lesson.locator('.question .katex').count(), 1);
+  assert.ok((await lesson.textContent()).includes('N·s/m'));
+  assert.equal(/N\*s|sqrt\(/.test(await lesson.evaluate((node) => [...node.querySelectorAll('annotation')].reduce((text, note) => text.replace(note.textContent, ''), node.innerText))), false);
+  await lesson.locator('summary', { hasText: 'Why' }).click();
+  assert.deepEqual(await lesson.locator('.formula').evaluateAll((all) => all.map((formula) => formula.dataset.source)), ['sqrt(k/m)', '2 pi sqrt(m/k)', 'zeta = B/(2 sqrt(k m))']);
+  await close();
+});

@@ -1,0 +1,123 @@
+#include "tools/python/reading.hpp"
+
+#include <utility>
+
+#include "core/network/advice.hpp"
+#include "core/network/component.hpp"
+#include "core/result/explain.hpp"
+#include "core/result/memory_file.hpp"
+#include "tools/draw/schematic.hpp"
+#include "tools/plot/mistake.hpp"
+#include "tools/python/diagnostics.hpp"
+#include "tools/python/watch.hpp"
+#include "tools/rheonet/both_sides.hpp"
+#include "tools/rheonet/explanation.hpp"
+
+namespace rheonet::python {
+
+Reading::Reading(std::string file, ReadResult result)
+    : file_(std::move(file)), sources_(std::make_shared<const Sources>(std::move(result.sources))), presentation_(std::move(result.presentation)),
+      diagnostics_(std::move(result.diagnostics)) {
+  if (!result.scene) return;
+  scene_ = std::make_shared<const Scene>(std::move(*result.scene));
+  const std::vector<Diagnostic> advice = advice_on(*scene_);
+  diagnostics_.insert(diagnostics_.end(), advice.begin(), advice.end());
+}
+
+ReadResult Reading::read_result(std::optional<double> accuracy) const {
+  return {.scene = *with_accuracy(accuracy), .presentation = presentation_, .diagnostics = diagnostics_, .sources = *sources_};
+}
+
+py::list Reading::diagnostics() const {
+  py::list result;
+  for (const Diagnostic& diagnostic : diagnostics_) result.append(as_dict(diagnostic, *sources_));
+  return result;
+}
+
+py::dict Reading::units() const {
+  py::dict result;
+  for (const Record& record : scene_->records) result[py::str(record.path)] = unit_text(*scene_, record);
+  return result;
+}
+
+std::unique_ptr<Run> Reading::run(const RunWanted& wanted, const py::object& progress) const {
+  auto run = std::make_unique<Run>();
+  run->scene = with_accuracy(wanted.accuracy);
+  run->sources = sources_;
+  run->drawn = presentation_.plot;
+  run->columns.resize(scene_->records.size());
+  const auto rows = static_cast<std::size_t>(scene_->output_intervals) + 1;
+  run->times.reserve(rows);
+  for (std::vector<double>& column : run->columns) column.reserve(rows);
+
+  MemoryFile events;
+  Watch watch(progress);
+  const auto keep = [&run](double time, const std::vector<double>& values) {
+    run->times.push_back(time);
+    // As in the CSV, -0 becomes 0.
+    for (std::size_t k = 0; k < values.size(); ++k) run->columns[k].push_back(values[k] + 0.0);
+  };
+  RunSettings settings{.events = events.file(),
+                       .row = keep,
+                       .interrupt = watch.interrupt(),
+                       .progress = [&watch](double fraction) { watch.advance(fraction); },
+                       .threads = wanted.threads};
+  tool::BothSides sides(keep);
+  if (wanted.both_sides) sides.listen(settings);
+  const auto work = [&] {
+    try {
+      if (wanted.certified) {
+        run->certificate = certify(*run->scene, settings);
+        run->summary = run->certificate->summary;
+      } else {
+        run->summary = rheonet::run(*run->scene, settings);
+      }
+    } catch (const SimulationError& error) {
+      run->failure = error;
+    }
+  };
+  watch.call(work, wanted.threads > 1);
+  run->events = events.text();
+  return run;
+}
+
+std::string Reading::explanation() const {
+  std::optional<SimulationError> failure;
+  {
+    const py::gil_scoped_release unlocked;
+    try {
+      return tool::to_json(*scene_, explain(*scene_));
+    } catch (const SimulationError& error) {
+      failure = error;
+    }
+  }
+  raise(*failure, *sources_);
+}
+
+std::optional<std::string> Reading::schematic() const {
+  try {
+    return draw::svg(draw::schematic(*scene_, {.title = scene_->title, .sources = sources_.get()}), *scene_);
+  } catch (const plot::Mistake&) {
+    return std::nullopt;
+  }
+}
+
+std::shared_ptr<const Scene> Reading::with_accuracy(std::optional<double> accuracy) const {
+  if (!accuracy || *accuracy == scene_->accuracy) return scene_;
+  auto changed = std::make_shared<Scene>(*scene_);
+  changed->accuracy = *accuracy;
+  return changed;
+}
+
+Reading Source::read(Wanted wanted) {
+  const ReadOptions options{.overrides = std::move(wanted.overrides),
+                            .records = std::move(wanted.records),
+                            .plotted = wanted.plotted,
+                            .claims = !wanted.measures,
+                            .measures = wanted.measures.value_or(std::vector<std::string>{}),
+                            .model_folders = {wanted.library.begin(), wanted.library.end()},
+                            .cache = &cache_};
+  return Reading(file_, text_ ? read_scene_text(*text_, file_, folder_, declarations(), options) : read_scene(file_, declarations(), options));
+}
+
+}  // namespace rheonet::python

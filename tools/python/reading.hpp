@@ -1,0 +1,82 @@
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/netlist/read.hpp"
+#include "tools/python/run.hpp"
+
+namespace rheonet::python {
+
+/// How a scene is simulated.
+struct RunWanted {
+  std::optional<double> accuracy = {};  ///< in place of the scene's
+  bool certified = false;
+  int threads = 1;
+  bool both_sides = false;  ///< rows at both sides of each event too, as a figure needs them
+};
+
+/// A netlist that has been read: the scene, or the mistakes in it.
+class Reading {
+ public:
+  Reading(std::string file, ReadResult result);
+
+  bool complete() const { return scene_ != nullptr; }
+  const std::string& file() const { return file_; }
+  const Scene& scene() const { return *scene_; }
+  const Sources& sources() const { return *sources_; }
+
+  /// The reading as the commands have it, with its scene to `accuracy`.
+  ReadResult read_result(std::optional<double> accuracy) const;
+
+  py::list diagnostics() const;
+  py::dict units() const;
+  std::unique_ptr<Run> run(const RunWanted& wanted, const py::object& progress) const;
+
+  /// The JSON of `rheonet explain --json`. Raises rheonet.SimulationError if the scene cannot start.
+  std::string explanation() const;
+
+  /// The SVG of the network; absent if it is too large to be drawn.
+  std::optional<std::string> schematic() const;
+
+ private:
+  std::shared_ptr<const Scene> with_accuracy(std::optional<double> accuracy) const;
+
+  std::string file_;  ///< what the netlist is called
+  std::shared_ptr<const Sources> sources_;
+  std::shared_ptr<const Scene> scene_;  ///< nullptr if there is any mistake
+  Presentation presentation_;
+  std::vector<Diagnostic> diagnostics_;
+};
+
+/// A netlist before it is read: a file, or a text, for which `file` then stands in messages. Its files are read from disk once, so
+/// that every reading sees the same.
+class Source {
+ public:
+  Source(std::string file, std::optional<std::string> text, std::string folder)
+      : file_(std::move(file)), text_(std::move(text)), folder_(std::move(folder)) {}
+
+  const std::string& file() const { return file_; }
+  py::tuple arguments() const { return py::make_tuple(file_, text_, folder_); }
+
+  struct Wanted {
+    std::vector<std::string> overrides;                   ///< "PATH=VALUE"
+    std::optional<std::vector<std::string>> measures;     ///< in place of the file's claims, which are about the scene without changes
+    std::vector<std::string> library;                     ///< folders that `include` falls back on
+    std::vector<std::string> records;                     ///< in addition to those of the file
+    bool plotted = false;                                 ///< what `[plot]` draws is recorded too
+  };
+  Reading read(Wanted wanted);
+
+ private:
+  std::string file_;
+  std::optional<std::string> text_;
+  std::string folder_;  ///< of files that a text includes
+  FileCache cache_;
+};
+
+}  // namespace rheonet::python

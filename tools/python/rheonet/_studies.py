@@ -1,0 +1,227 @@
+"""What the commands `compare`, `effects` and `precision` find out, as data."""
+
+import dataclasses
+
+
+@dataclasses.dataclass(frozen=True)
+class Difference:
+    """How far a record of one run is from that of another. All values are in SI units."""
+
+    largest: float  #: largest magnitude of the difference
+    time: float  #: time of the largest difference [s]
+    first: float  #: the value of the first run at that time
+    second: float  #: the value of the other run at that time
+    rms: float  #: root mean square
+    scale: float  #: largest magnitude of either record in the run: the reference of relative differences
+    relative: float  #: largest / scale
+    relative_rms: float  #: rms / scale
+
+
+def _frame(rows, **attributes):
+    import pandas
+
+    frame = pandas.DataFrame(rows)
+    frame.attrs.update(attributes)
+    return frame
+
+
+class Comparison:
+    """Scenes on one time base, and how far each is from the first. str() of it is what `rheonet compare` prints."""
+
+    def __init__(self, study, titles):
+        """Made by Scene.compare()."""
+        self._study, self._titles = study, titles
+        self._pairings = study.pairings
+
+    @property
+    def names(self):
+        """The records that are compared, as the first scene calls them."""
+        return [pairing[0] for pairing in self._pairings]
+
+    @property
+    def units(self):
+        """The SI unit of each of `names`."""
+        return dict(zip(self.names, self._study.units))
+
+    @property
+    def differences(self):
+        """For each scene but the first a dictionary from `names` to Difference."""
+        return [{name: Difference(**found) for name, found in zip(self.names, of_scene)} for of_scene in self._study.differences]
+
+    @property
+    def furthest(self):
+        """The largest relative difference of all records and scenes."""
+        return max(max(of_scene.values(), key=lambda d: d.relative) for of_scene in self.differences).relative
+
+    @property
+    def dissipated(self):
+        """The energy that each scene dissipates [J]."""
+        return self._study.dissipated
+
+    def to_dataframe(self):
+        """A pandas.DataFrame with a row for each scene but the first and each record: "scene" (its place, from 1), "record" (its name in that
+        scene), "unit", and the attributes of Difference. The index is the record of the first scene."""
+        rows = [
+            {"compared": pairing[0], "scene": place, "record": pairing[place], "unit": self.units[pairing[0]]} | dataclasses.asdict(of_scene[pairing[0]])
+            for place, of_scene in enumerate(self.differences, 1)
+            for pairing in self._pairings
+        ]
+        return _frame(rows).set_index("compared")
+
+    def to_xarray(self):
+        """An xarray.Dataset with a variable for each of `names` over the dimensions "scene" and "time": all rows of all scenes."""
+        import xarray
+
+        variables = {name: (("scene", "time"), self._study.rows(k), {"units": self.units[name]}) for k, name in enumerate(self.names)}
+        coordinates = {"time": ("time", self._study.time, {"units": "s"}), "title": ("scene", self._titles)}
+        return xarray.Dataset(variables, coordinates)
+
+    def __str__(self):
+        return self._study.text
+
+    def __repr__(self):
+        return f"<rheonet.Comparison: {len(self._titles)} scenes, {len(self.names)} records, relative difference up to {self.furthest:.3g}>"
+
+
+@dataclasses.dataclass(frozen=True)
+class Model:
+    """A scene without some of its effects."""
+
+    without: tuple[str, ...]  #: the effects that are left out, in the order of leaving out
+    differences: dict[str, Difference]  #: of each record, from the full model; empty if the model cannot be simulated
+    steps: int
+    cpu_seconds: float  #: median of the runs
+    failure: str  #: why the model cannot be simulated; "" if it can
+
+    @property
+    def relative(self):
+        """The largest relative difference of all records from the full model; NaN if the model cannot be simulated."""
+        if self.failure:
+            return float("nan")
+        return max((difference.relative for difference in self.differences.values()), default=0.0)
+
+
+def _model(found):
+    return Model(**found | {"differences": {record: Difference(**values) for record, values in found["differences"].items()}})
+
+
+class Effects:
+    """What each physical effect contributes to the records of a scene. str() of it is what `rheonet effects` prints."""
+
+    def __init__(self, study, units):
+        """Made by Scene.effects()."""
+        self._study, self._units = study, units
+
+    @property
+    def effects(self):
+        """The effects in the scene: ["inertia", "friction", ...]."""
+        return self._study.effects
+
+    @property
+    def full(self):
+        """The full Model."""
+        return _model(self._study.full)
+
+    @property
+    def each(self):
+        """For each of `effects` the Model without that one alone."""
+        return [_model(model) for model in self._study.each]
+
+    @property
+    def steps(self):
+        """A list of Model, each without one effect more than the last: first those that contribute least."""
+        return [_model(model) for model in self._study.steps]
+
+    def barest(self, within=0.01):
+        """The Model with the fewest effects of which no record differs from the full model by more than `within` times its largest
+        magnitude; None if no effect can be left out."""
+        place = self._study.barest(within)
+        return None if place is None else self.steps[place]
+
+    def to_dataframe(self):
+        """A pandas.DataFrame with a row for each model and record: "without", "record", "unit", the attributes of Difference, "cpu_seconds",
+        "steps" and "failure". A model that cannot be simulated has one row, without a record."""
+        models = [self.full, *self.each, *(model for model in self.steps if len(model.without) > 1)]
+        nothing = dict.fromkeys((field.name for field in dataclasses.fields(Difference)), float("nan"))
+        rows = [
+            {"without": " ".join(model.without), "record": record, "unit": self._units.get(record, "")}
+            | (dataclasses.asdict(difference) if difference else nothing)
+            | {"cpu_seconds": model.cpu_seconds, "steps": model.steps, "failure": model.failure}
+            for model in models
+            for record, difference in (model.differences or {"": None}).items()
+        ]
+        return _frame(rows)
+
+    def __str__(self):
+        return self._study.text(None)
+
+    def __repr__(self):
+        return f"<rheonet.Effects: {', '.join(self.effects) or 'none'}>"
+
+
+@dataclasses.dataclass(frozen=True)
+class Price:
+    """Cost and error of a run with one setting."""
+
+    accuracy: float
+    method: str  #: "order up to 5", "exact arcs", or the name of a model
+    order: int  #: largest order of the integration method
+    error: float  #: largest error of all records, relative to the largest magnitude of the record
+    record: str | None  #: the record with that error
+    errors: dict[str, float]  #: relative error of each record
+    meets: bool  #: every record is as accurate as the scene asks
+    cpu_seconds: float  #: median of the runs
+    cpu_lower_quartile: float
+    cpu_upper_quartile: float
+    steps: int
+    rejected_steps: int
+    residual_evaluations: int
+    jacobian_evaluations: int
+    restarts: int
+    failure: str  #: why the run ended early; "" if it did not. The figures above are void then
+
+
+class Precision:
+    """What accuracy costs in a scene. str() of it is what `rheonet precision` prints."""
+
+    def __init__(self, study):
+        """Made by Scene.precision()."""
+        self._study = study
+
+    @property
+    def prices(self):
+        """A list of Price: by method, then from the loosest accuracy to the tightest."""
+        return [Price(**price) for price in self._study.prices]
+
+    @property
+    def cheapest(self):
+        """The Price with the least CPU time that meets the accuracy of the scene; None if none does."""
+        place = self._study.cheapest
+        return None if place is None else self.prices[place]
+
+    @property
+    def own(self):
+        """The Price of the scene's own accuracy; None if that run failed."""
+        place = self._study.own
+        return None if place is None else self.prices[place]
+
+    @property
+    def doubt(self):
+        """For each record, how well the reference is known by which errors are measured, relative to the largest magnitude. 0 for a record with
+        a closed form. Errors below twice this figure are not known."""
+        return self._study.doubt
+
+    def to_dataframe(self):
+        """A pandas.DataFrame with a row for each of `prices`, and a column for each attribute but `errors`, of which each record has a
+        column "error RECORD"."""
+        rows = []
+        for price in self.prices:
+            row = dataclasses.asdict(price)
+            rows.append(row | {f"error {record}": error for record, error in row.pop("errors").items()})
+        return _frame(rows)
+
+    def __str__(self):
+        return self._study.text
+
+    def __repr__(self):
+        return f"<rheonet.Precision: {len(self.prices)} prices>"

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/netlist/presentation.hpp"
+#include "core/netlist/scene.hpp"
+#include "core/network/error.hpp"
+#include "core/result/certify.hpp"
+#include "core/result/run.hpp"
+
+namespace rheonet::python {
+
+namespace py = pybind11;
+
+/// The rows, the events and the summary of a run. Each record has a column of its own, which NumPy views without a copy.
+struct Run {
+  std::vector<double> times;
+  std::vector<std::vector<double>> columns;  ///< one for each record of the scene
+  std::string events;                        ///< as `rheonet run --events` writes them: CSV with a header
+  Summary summary;
+  std::optional<Certificate> certificate;
+  std::shared_ptr<const Scene> scene;
+  std::shared_ptr<const Sources> sources;
+  PlotTable drawn;                           ///< what the netlist wants drawn
+  std::optional<SimulationError> failure;  ///< why the run ended early; the rows before are there
+};
+
+/// A read-only view of a column, which keeps its owner alive.
+py::array_t<double> view(const std::vector<double>& column, const py::handle& owner);
+
+/// What Python gets: tuples of (time, element, event, direction), and dictionaries.
+py::list events_of(const Run& run);
+py::dict summary_of(const Run& run);
+py::object certificate_of(const Run& run);
+
+}  // namespace rheonet::python

@@ -1,0 +1,94 @@
+#pragma once
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/result/model_hierarchy.hpp"
+#include "core/result/work_precision.hpp"
+#include "tools/python/reading.hpp"
+#include "tools/rheonet/comparison.hpp"
+
+/// The studies of the commands `compare`, `effects` and `precision`, as Python gets them. All raise rheonet.SimulationError if a scene
+/// cannot be simulated, and ValueError for scenes that cannot be compared.
+namespace rheonet::python {
+
+/// Scenes on one time base, and how far each is from the first.
+class Comparison {
+ public:
+  /// `pairings`: for each the records of all scenes; empty: the records that all share.
+  Comparison(const std::vector<const Reading*>& readings, std::vector<tool::Pairing> pairings, const py::object& progress);
+
+  const std::vector<tool::Pairing>& pairings() const { return compared_.pairings; }
+  std::vector<std::string> units() const;
+  /// Of each scene but the first, and of each pairing, keywords of rheonet.Difference.
+  py::list differences() const;
+  std::vector<double> dissipated() const;
+  py::array_t<double> time() const;
+  /// The rows of a pairing: an array of shape (scenes, rows).
+  py::array_t<double> rows(std::size_t pairing) const;
+  std::string text() const;
+
+ private:
+  tool::Compared compared_;
+};
+
+/// The points of `rheonet sweep` with --random, --latin or --sobol: of each run the values, as text. `vary` and `correlate` are as after these
+/// options of the command. Throws std::invalid_argument for what the command refuses.
+std::vector<std::vector<std::string>> drawn_points(const std::vector<std::string>& vary, const std::string& kind, long count, std::uint64_t seed,
+                                                   const std::vector<std::string>& correlate);
+
+/// What each physical effect contributes.
+class Effects {
+ public:
+  Effects(const Reading& reading, int runs, const py::object& progress);
+
+  std::vector<std::string> effects() const;
+  py::dict full() const { return model(ladder_.full); }
+  py::list each() const { return models(ladder_.each); }
+  py::list steps() const { return models(ladder_.steps); }
+  /// Position in `steps` of the barest model within `relative`.
+  std::optional<std::size_t> barest(double relative) const;
+  std::string text(std::optional<double> within) const;
+
+ private:
+  py::dict model(const Rung& rung) const;
+  py::list models(const std::vector<Rung>& rungs) const;
+
+  std::string file_;
+  Scene scene_;
+  ModelHierarchy ladder_;
+};
+
+/// What accuracy costs.
+class Precision {
+ public:
+  struct Wanted {
+    std::vector<double> accuracies;
+    int runs = 5;
+    bool variants = false, certified = false;
+    std::vector<std::pair<std::string, const Reading*>> models;  ///< by name
+    std::vector<std::vector<std::string>> records;               ///< of each model, one for each record of the scene
+  };
+  Precision(const Reading& reading, const Wanted& wanted, const py::object& progress);
+
+  py::list prices() const;
+  std::optional<std::size_t> cheapest() const { return place(list_.cheapest()); }
+  std::optional<std::size_t> own() const { return place(list_.own(scene_)); }
+  py::dict doubt() const;
+  std::string text() const;
+
+ private:
+  std::optional<std::size_t> place(const Price* price) const;
+
+  std::string file_;
+  Scene scene_;
+  PriceList list_;
+};
+
+}  // namespace rheonet::python

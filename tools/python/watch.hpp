@@ -1,0 +1,72 @@
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <atomic>
+#include <chrono>
+#include <exception>
+#include <functional>
+#include <future>
+#include <thread>
+
+namespace rheonet::python {
+
+namespace py = pybind11;
+
+/// Time between two looks for signals (Ctrl-C), which is also the time between two calls of `progress`: short for a person.
+inline constexpr auto polling_interval = std::chrono::milliseconds(20);
+
+/// Looks for signals and calls `progress` during a run, at intervals. An exception (KeyboardInterrupt) ends the run.
+class Watch {
+ public:
+  /// `progress` is called with the fraction of the run completed, unless it is None.
+  explicit Watch(const py::object& progress) : progress_(progress) {}
+
+  const std::atomic<bool>* interrupt() const { return &interrupt_; }
+
+  /// For RunSettings::progress. The engine may call it in any thread, but Python delivers signals to its main thread only: so the
+  /// thread that made the Watch is the one that looks.
+  void advance(double fraction) {
+    fraction_ = fraction;
+    if (std::this_thread::get_id() == caller_ && std::chrono::steady_clock::now() - last_ > polling_interval) look();
+  }
+
+  /// Calls `work` without the interpreter lock. `aside`: in another thread, while this one only watches, as is necessary if the
+  /// engine has several threads or does not call `advance` often. Throws what ended the run.
+  void call(const std::function<void()>& work, bool aside) {
+    {
+      const py::gil_scoped_release unlocked;
+      if (aside) {
+        std::future<void> done = std::async(std::launch::async, work);
+        while (done.wait_for(polling_interval) == std::future_status::timeout) look();
+        done.get();
+      } else {
+        work();
+      }
+    }
+    if (stopped_) std::rethrow_exception(stopped_);
+  }
+
+ private:
+  void look() {
+    if (stopped_) return;
+    last_ = std::chrono::steady_clock::now();
+    const py::gil_scoped_acquire locked;
+    try {
+      if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+      if (!progress_.is_none()) progress_(fraction_.load());
+    } catch (...) {
+      stopped_ = std::current_exception();
+      interrupt_ = true;
+    }
+  }
+
+  const py::object& progress_;
+  const std::thread::id caller_ = std::this_thread::get_id();
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+  std::atomic<bool> interrupt_ = false;
+  std::atomic<double> fraction_ = 0;
+  std::exception_ptr stopped_;
+};
+
+}  // namespace rheonet::python

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/result/run.hpp"
+#include "core/result/sensitivities.hpp"
+#include "tools/rheonet/arguments.hpp"
+
+namespace rheonet::tool {
+
+/// Whether each path of `--sensitivities` names a value of the scene that can be multiplied. Says so if one does not.
+bool can_be_multiplied(const Arguments& arguments);
+
+/// The derivatives by each value of `--sensitivities`, in their order. Throws SimulationError.
+std::vector<Sensitivity> sensitivities(const Arguments& arguments, const RunSettings& settings);
+
+/// The column of a derivative: "d(k1.force)/dln(k1.stiffness)".
+std::string derivative_name(const std::string& record, const std::string& path);
+
+/// Simulates, and writes the rows with the derivatives behind the records. Without rows at events: the derivatives jump there. Throws SimulationError.
+Summary write_with_derivatives(const Scene& scene, const std::vector<Sensitivity>& derivatives, const Arguments& arguments, RunSettings settings);
+
+/// The largest magnitude of each derivative, when, and its estimated error: a table for the summary of the run.
+std::string describe(const Scene& scene, const std::vector<Sensitivity>& derivatives, const Arguments& arguments);
+
+}  // namespace rheonet::tool
