@@ -49,7 +49,7 @@ export class TimeChart extends Chart {
     host.tabIndex = 0;
     host.setAttribute('role', 'group');
     const names = curves.map((curve) => curve.name).join(', ');
-    host.setAttribute('aria-label', `${quantity} over time: ${names}. Keys: plus and minus zoom, arrows move, 0 shows all.`);
+    host.setAttribute('aria-label', t('{quantity} over time: {names}. Keys: plus and minus zoom, arrows move, 0 shows all.', { quantity, names }));
     this.quantity = quantity;
     this.unit = unit;
     this.as = as; // the unit that somebody wants
@@ -67,7 +67,7 @@ export class TimeChart extends Chart {
       value: (plot, value) => (value === null || value === undefined ? '–' : `${read(plot, 'y', value, 5)} ${this.shown.name}`),
     }));
     const data = this.data();
-    this.timeLabel = () => (labelled ? labelOf('time', this.timeUnit) : undefined);
+    this.timeLabel = () => (labelled ? labelOf(t('time'), this.timeUnit) : undefined);
     this.plot = new uPlot(
       {
         width: Math.max(this.width(), 240),
