@@ -25,7 +25,7 @@ const words = (text) => text.replace(/\{[^}]*\}|&[a-z]+;/g, ' ');
 // Two words, or one that begins as a sentence does. Names of the browser, selectors, paths of SVG and the like are neither.
 function looksLikeText(text) {
   const plain = words(text).trim();
-  if (/^[<#.[]|var\(--|^[MmHhVvLl][\d{ -]|;\s*$|^\w+(-\w+)+$/.test(text) || /[{};]\s/.test(plain)) return false;
+  if (/^[<#.[]|var\(--|^[MmHhVvLl][\d{ -]|;\s*$|^\w+(-\w+)+$/.test(text) || /[{};]\s|\n\[/.test(plain)) return false;
   if (/(^|[^\w-])[A-Za-zÀ-ÿ]{2,}[,.:;!?]? +[A-Za-zÀ-ÿ]{2,}/.test(plain)) return true;
   return /^[A-Z][a-z]{2,}\W*$/.test(plain);
 }

@@ -106,8 +106,8 @@ export class Animation {
     const span = stop - start;
     const options = lengths.map((length) => [length, span / length]);
     if (span >= 0.5 && span <= 120 && !lengths.includes(span)) options.push([span, 1]);
-    const label = ([length, rate]) => (Math.abs(rate - 1) < 1e-9 ? `as it is (${number(length, 3)} s)`
-      : `${rate < 1 ? `${number(1 / rate, 2)} times slower` : `${number(rate, 2)} times faster`} (${number(length, 3)} s)`);
+    const label = ([length, rate]) => (Math.abs(rate - 1) < 1e-9 ? t('as it is ({s} s)', { s: number(length, 3) })
+      : rate < 1 ? t('{factor} times slower ({s} s)', { factor: number(1 / rate, 2), s: number(length, 3) }) : t('{factor} times faster ({s} s)', { factor: number(rate, 2), s: number(length, 3) }));
     const key = String(span);
     if (this.speed.dataset.span === key) return;
     this.speed.dataset.span = key;
