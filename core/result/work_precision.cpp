@@ -20,6 +20,13 @@ RunSettings settings_of(const Setting& setting, const PriceListSettings& setting
   return {.interrupt = settings.interrupt, .tolerance = setting.tolerance, .method = Scene::Method::ida, .order = setting.order, .account = false};
 }
 
+// WebAssembly has no threads here: there the check runs when its result is asked for.
+#ifdef __EMSCRIPTEN__
+constexpr std::launch beside_this_thread = std::launch::deferred;
+#else
+constexpr std::launch beside_this_thread = std::launch::async;
+#endif
+
 class Pricing {
  public:
   Pricing(const Scene& scene, const PriceListSettings& settings)
@@ -52,7 +59,7 @@ class Pricing {
     for (const double tolerance : numerics::reference_tolerances) {
       list_.reference = {tolerance, RunSettings{}.order};
       list_.check = {tolerance, numerics::reference_check_order};
-      auto beside = std::async(std::launch::async, [&] { return run_to_memory(scene_, settings_of(list_.check, settings_)); });
+      auto beside = std::async(beside_this_thread, [&] { return run_to_memory(scene_, settings_of(list_.check, settings_)); });
       try {
         const double loosest = std::max(tolerances_.front(), scene_.accuracy);
         truth_ = run_as_reference(scene_, shift(loosest), settings_of(list_.reference, settings_));

@@ -1,6 +1,7 @@
 // The site in a browser, from a static host and from disk: all that it does, it does in the page.
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
+import { createServer } from 'node:http';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 import { gzipSync } from 'node:zlib';
@@ -57,6 +58,11 @@ for (const [what, address, cut] of [['a static host', () => hosted.address, fals
     await accessible(page, 'gallery');
     await page.locator('.gallery input').fill('bingham yields');
     await page.locator('.card:visible').first().click();
+    // Its card opens its lesson.
+    await page.getByRole('radio', { name: /falls, but not to 0/ }).check();
+    await page.getByRole('button', { name: 'Compare with the run' }).click();
+    assert.match(await page.textContent('.lesson-steps'), /That is what happens\./);
+    await page.getByRole('button', { name: 'Leave the lesson' }).click();
     await done(page);
     assert.equal(await page.textContent('.question'), 'Paint runs down the wall while it is brushed, and then stays. What makes a liquid hold still?');
 
@@ -81,7 +87,7 @@ for (const [what, address, cut] of [['a static host', () => hosted.address, fals
     assert.match(report, /Bingham: what yields, and when/);
 
     await page.getByRole('button', { name: 'Link' }).click();
-    await page.waitForFunction(() => location.hash.startsWith('#scene='));
+    await page.waitForFunction(() => location.hash.startsWith('#s='));
     const link = page.url();
     const other = await open(link, { cut });
     assert.match(await netlist(other.page), /Fc = "6 N"/);
@@ -97,6 +103,42 @@ test('embedded: the scene of a link, its schematic, sliders and plots, and a way
   for (const part of ['.editor-box', '.actions', '.more-box']) assert.ok(!(await page.locator(part).isVisible()), part);
   assert.equal(await page.locator('dialog[open]').count(), 0);
   assert.equal(await page.getByRole('link', { name: 'Open in the playground' }).getAttribute('href'), `${hosted.address}#file=teaching/bingham.toml`);
+  await close();
+});
+
+test('embedded in a page of another origin: the scene runs in its frame', async () => {
+  const context = await chromium.newContext({ viewport: { width: 900, height: 700 } });
+  const { page, wrong } = await watched(context, hosted.origin);
+  // `localhost` is another site than 127.0.0.1.
+  const school = createServer((_, response) => response.writeHead(200, { 'Content-Type': 'text/html' })
+    .end(`<!doctype html><title>A lesson</title><iframe title="rheonet" width="800" height="600" src="${hosted.address}?embed#file=teaching/bingham.toml"></iframe>`));
+  await new Promise((resolve) => school.listen(0, 'localhost', resolve));
+  await page.goto(`http://localhost:${school.address().port}/`);
+  const frame = page.frameLocator('iframe');
+  await frame.locator('.plots .chart canvas').first().waitFor();
+  await frame.locator('[data-slider="parameters.Fc"] input[type="text"]').fill('3');
+  await frame.locator('[data-slider="parameters.Fc"] input[type="text"]').press('Enter');
+  await frame.locator('.drawing', { hasText: '3 N' }).waitFor();
+  assert.deepEqual(wrong.filter((each) => !each.includes('localhost')), []);
+  await context.close();
+  school.close();
+});
+
+test('what takes many runs: effects, price of accuracy, sweep', async () => {
+  const { page, close } = await open(`${hosted.address}#file=teaching/inertia.toml`);
+  const unfold = (name) => page.locator(`.sections details[data-name="${name}"] summary`).first().click();
+  await unfold('Effects');
+  await page.locator('[data-name="Effects"] .finding').waitFor();
+  assert.match(await page.textContent('[data-name="Effects"] .finding'), /^To 1 % this scene needs/);
+  await unfold('Price of accuracy');
+  await page.locator('[data-name="Price of accuracy"] .finding').waitFor();
+  assert.match(await page.textContent('[data-name="Price of accuracy"] .finding'), /Accuracy costs nothing here/);
+  assert.equal(await page.locator('[data-name="Price of accuracy"] .chart.loop').count(), 1); // there is no clock of CPU time
+  await unfold('Sweep');
+  await page.getByLabel('runs').fill('5');
+  await page.getByLabel('runs').press('Tab');
+  await page.getByRole('button', { name: 'Run the sweep' }).click();
+  await page.getByText('5 of 5 runs').waitFor();
   await close();
 });
 

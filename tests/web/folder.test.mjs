@@ -86,9 +86,47 @@ test('a host that others can reach is announced with a warning, and by an addres
   assert.match(everywhere.stdout, /^http:\/\/127\.0\.0\.1:\d+\/\?token=\w{32} /);
   assert.doesNotMatch(everywhere.stdout, /0\.0\.0\.0/);
   const others = Object.values(networkInterfaces()).flat().filter(({ family, internal }) => family === 'IPv4' && !internal);
-  for (const { address } of others) assert.match(everywhere.stdout, new RegExp(`from other machines: http://${address.replaceAll('.', '\\.')}:\\d+/\\?token=`));
-  assert.match(everywhere.stderr, /warning: `--host 0\.0\.0\.0` lets other machines in: .*token.* change the netlists/);
+  for (const { address } of others) assert.match(everywhere.stdout, new RegExp(`from other machines, to type: http://${address.replaceAll('.', '\\.')}:\\d+/[a-z2-9]{4}-[a-z2-9]{4}\\n`));
+  assert.match(everywhere.stderr, /warning: `--host 0\.0\.0\.0` lets other machines in: .*address.* change the netlists/);
   for (const host of ['127.0.0.1', 'localhost']) assert.equal(said(host).stderr, '', host);
+  remove(other);
+});
+
+test('the short address leads in, however it is typed, and is not found by trying', async () => {
+  const other = folderWith({ 'a.toml': '' });
+  const server = spawn(program, ['serve', other, '--port', '0', '--host', '0.0.0.0'], { stdio: ['ignore', 'pipe', 'ignore'] });
+  let said = '';
+  server.stdout.on('data', (piece) => (said += piece));
+  for (let k = 0; k < 200 && !/to type: \S+\n/.test(said); ++k) await new Promise((resolve) => setTimeout(resolve, 50));
+  const [, origin] = /(http:\/\/127\.0\.0\.1:\d+)\//.exec(said);
+  const token = /token=\w+/.exec(said)[0];
+  const code = /to type: http:\/\/[^/]+\/(\S+)/.exec(said)?.[1];
+  if (code) {
+    for (const typed of [code, code.toUpperCase(), code.replace('-', '')]) {
+      const answer = await fetch(`${origin}/${typed}`, { redirect: 'manual' });
+      assert.equal(answer.status, 302, typed);
+      assert.equal(answer.headers.get('location'), `/?${token}`);
+    }
+    const wrong = code.replace(/^./, (letter) => (letter === 'a' ? 'b' : 'a'));
+    const answers = [];
+    for (let k = 0; k < 40; ++k) answers.push((await fetch(`${origin}/${wrong}`, { redirect: 'manual' })).status);
+    assert.equal(answers[0], 404);
+    assert.ok(answers.filter((status) => status === 429).length > 5, String(answers));
+  } else assert.ok(!Object.values(networkInterfaces()).flat().some(({ family, internal }) => family === 'IPv4' && !internal), said);
+  server.kill('SIGTERM');
+  await once(server, 'exit');
+  remove(other);
+});
+
+test('where only this machine is served there is no short address', async () => {
+  const other = folderWith({});
+  const server = spawn(program, ['serve', other, '--port', '0'], { stdio: ['ignore', 'pipe', 'inherit'] });
+  const [line] = await once(server.stdout, 'data');
+  assert.doesNotMatch(String(line), /to type/);
+  const [origin] = /http:\/\/127\.0\.0\.1:\d+/.exec(line);
+  assert.equal((await fetch(`${origin}/abcd-efgh`)).status, 401);
+  server.kill('SIGTERM');
+  await once(server, 'exit');
   remove(other);
 });
 

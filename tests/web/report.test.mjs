@@ -200,7 +200,7 @@ test('a report of a run that fails at its start says so where its curves would b
   const { code } = await rheonet(['report', name, 'stiff.toml', '-o', 'fails.html'], { cwd: folder }).catch((error) => error);
   assert.equal(code, 1);
   const { context, page, wrong } = await open('fails.html', { viewport: { width: 390, height: 844 } });
-  assert.match(await page.locator('.comparison .no-curves').textContent(), /^A: there is nothing to draw.* Motions drive and again both prescribe node drum/);
+  assert.match(await page.locator('.comparison .no-curves').textContent(), /^A: There is nothing to draw.* Motions drive and again both prescribe node drum/);
   await page.locator('.comparison .u-series', { hasText: 'B k1.force' }).waitFor();
   assert.equal(await page.locator('h3', { hasText: 'Energy account' }).count(), 1);
   assert.equal(await page.locator('h3', { hasText: 'Differences' }).count(), 0);

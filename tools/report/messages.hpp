@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "core/netlist/read.hpp"
+#include "core/result/model_hierarchy.hpp"
+#include "core/result/work_precision.hpp"
 
 namespace rheonet::report {
 
@@ -21,6 +23,8 @@ namespace rheonet::report {
 ///     energy       the energy account over time
 ///     events       what switched, and when
 ///     done         what the run took, notes, claims
+///     prices       what accuracy costs: error and work at each tolerance
+///     effects      what each physical effect of the scene changes
 ///     failed       why it did not come to its end
 using Tell = std::function<void(const std::string& message)>;
 
@@ -47,6 +51,12 @@ bool tell_run(const ReadResult& read, const RunWanted& wanted, const Tell& tell)
 /// Adds to what a scene records all that a page needs to draw loops and to move the network, if it is not too large.
 /// How many records were there before.
 std::size_t record_what_pages_show(Scene& scene);
+
+/// The price list of a scene; `text` says the same in words, "" if nobody reads them.
+std::string prices_message(const Scene& scene, const PriceList& list, const std::string& text);
+
+/// The models without some of the effects of a scene; `within` is the largest relative difference of one that is good enough.
+std::string effects_message(const Scene& scene, const ModelHierarchy& models, double within);
 
 /// Adds the line and column of what stands in the scene's own file.
 void add_place(const Spot& spot, nlohmann::json& message);

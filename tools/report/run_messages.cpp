@@ -117,6 +117,7 @@ json statistics(const Summary& s) {
   return {{"unknowns", s.unknowns},
           {"sparse", s.sparse},
           {"steps", s.steps},
+          {"arc_steps", s.arc_steps},
           {"rejected", s.rejected_steps},
           {"residuals", s.residual_evaluations},
           {"jacobians", s.jacobian_evaluations},

@@ -1,8 +1,19 @@
 #include "tools/rheonet/page_arguments.hpp"
 
 #include <CLI/CLI.hpp>
+#include <regex>
+#include <string>
 
 namespace rheonet::tool {
+namespace {
+
+/// What is wrong with an origin, which goes into a header of HTTP; "" if nothing is.
+std::string fault_of_origin(const std::string& origin) {
+  static const std::regex form(R"(\*|https?://[A-Za-z0-9.-]+(:[0-9]+)?|https?://\[[0-9a-fA-F:]+\](:[0-9]+)?)");
+  return std::regex_match(origin, form) ? "" : "an origin is as in https://school.example or http://localhost:8000, without a path; * is every page";
+}
+
+}  // namespace
 
 void add_report_options(CLI::App& command, std::vector<std::string>& scenes, std::string& output, std::string& title,
                         bool& certify, ReportArguments& report) {
@@ -23,6 +34,9 @@ void add_serve_options(CLI::App& command, ServeArguments& serve) {
   command.add_option("--host", serve.host, "address to listen on (default 127.0.0.1: this machine alone)")
       ->type_name("ADDRESS");
   command.add_option("--port", serve.port, "port (default 8017); 0 takes a free one")->check(CLI::Range(0, 65535))->type_name("N");
+  command.add_option("--framed-by", serve.framed_by, "origin whose pages may show the playground in a frame (default: none); * is every page")
+      ->check(fault_of_origin)
+      ->type_name("ORIGIN");
   command.add_option("--time-limit", serve.seconds, "largest CPU time of a run [s] (default 20)")
       ->check(CLI::Range(0.1, 3600.0))
       ->type_name("S");

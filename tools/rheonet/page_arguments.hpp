@@ -18,6 +18,7 @@ struct ReportArguments {
 struct ServeArguments {
   std::string folder;  ///< "": the netlists that come with rheonet
   std::string host = "127.0.0.1";
+  std::string framed_by;   ///< origin whose pages may show the playground in a frame; "*": all; "": none
   int port = 8017;         ///< 0: any that is free
   double seconds = 20;     ///< that a scene may take
   int megabytes = 1024;    ///< that a scene may take

@@ -35,20 +35,6 @@ std::string certificate_message(const Scene& scene, const Certificate& certifica
                           {"records", records}});
 }
 
-std::string price_message(const Scene& scene, const std::string& file, const PriceList& list) {
-  json prices = json::array();
-  for (const Price& price : list.prices) {
-    if (!price.failure.empty()) continue;
-    prices.push_back({{"tolerance", price.setting.tolerance},
-                      {"order", price.setting.order},
-                      {"error", price.error()},
-                      {"meets", price.meets},
-                      {"cpu", price.cpu_quantile(0.5)},
-                      {"steps", price.summary.steps}});
-  }
-  return report::to_line({{"kind", "prices"}, {"prices", prices}, {"accuracy", scene.accuracy}, {"text", describe(scene, file, list)}});
-}
-
 /// A price list in short, for the page; nothing, with a failure in `made`, if the scene has none.
 std::optional<std::string> price_in_short(const Scene& scene, const std::string& file, const std::atomic<bool>* interrupt, SceneReport& made) {
   try {
@@ -56,7 +42,8 @@ std::optional<std::string> price_in_short(const Scene& scene, const std::string&
     for (int k = 2; k <= 10; ++k) settings.tolerances.push_back(std::pow(10.0, -k));
     settings.runs = 3;
     settings.interrupt = interrupt;
-    return price_message(scene, file, price_list(scene, settings));
+    const PriceList list = price_list(scene, settings);
+    return report::prices_message(scene, list, describe(scene, file, list));
   } catch (const SimulationError& error) {
     if (interrupt && *interrupt) throw;
     made.failures.push_back(fmt::format("no price list: {}", error.what()));

@@ -165,10 +165,15 @@ std::string SweepTable::key(long run, const std::vector<std::string>& values) {
 std::string SweepTable::row(const std::string& key, const Summary& summary) const {
   std::string text = key;
   text.pop_back();  // each number brings its comma
-  std::size_t finding = 0;
-  for (const Measure& measure : measures_)
-    append_number(text, measure.figure ? measure.figure->of(summary) : summary.findings[finding++].found);
+  for (const double value : values(summary)) append_number(text, value);
   return text + ",\n";
+}
+
+std::vector<double> SweepTable::values(const Summary& summary) const {
+  std::vector<double> all;
+  std::size_t finding = 0;
+  for (const Measure& measure : measures_) all.push_back(measure.figure ? measure.figure->of(summary) : summary.findings[finding++].found);
+  return all;
 }
 
 void SweepTable::append(std::string& text, const std::string& key, double time, const std::vector<double>& values) {

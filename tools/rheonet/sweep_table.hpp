@@ -48,6 +48,8 @@ class SweepTable {
   std::string header(const std::vector<std::vector<std::string>>& points) const;
   /// The cells that each row of a run begins with: "17,200,", and ends in a comma.
   static std::string key(long run, const std::vector<std::string>& values);
+  /// The measures of a run, in SI; not finite where there is none.
+  std::vector<double> values(const Summary& summary) const;
   /// The row of measures.
   std::string row(const std::string& key, const Summary& summary) const;
   /// A row of a run's records. Throws SimulationError if they are not those of the columns.

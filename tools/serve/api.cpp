@@ -66,11 +66,12 @@ int status_of(Folder::Written::Outcome outcome) {
   return 500;
 }
 
-void add_headers(httplib::Server& server) {
+/// `framed_by`: the origin whose pages may show the page in a frame; "": none.
+void add_headers(httplib::Server& server, const std::string& framed_by) {
   server.set_default_headers({
       {"Content-Security-Policy",
        "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' data: blob:; font-src data:; "
-       "connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"},
+       "connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors " + (framed_by.empty() ? "'none'" : framed_by)},
       {"X-Content-Type-Options", "nosniff"},
       {"Referrer-Policy", "no-referrer"},
       {"Cross-Origin-Resource-Policy", "same-origin"},
@@ -80,12 +81,13 @@ void add_headers(httplib::Server& server) {
 
 }  // namespace
 
-void Api::attach(Server& server, const std::string& host) {
-  add_headers(server);
+void Api::attach(Server& server, const std::string& host, const std::string& framed_by) {
+  add_headers(server, framed_by);
   server.set_pre_routing_handler([this, host](const Request& request, Response& response) {
     using Handled = httplib::Server::HandlerResponse;
     if (const std::string why = refusal(request, host); !why.empty())
       return refuse(response, 403, why), Handled::Handled;
+    if (!is_this_machine(host) && keys_.lead_in(request, response)) return Handled::Handled;
     if (!keys_.admit(request, response)) return ask_for_token(request, response), Handled::Handled;
     return Handled::Unhandled;
   });

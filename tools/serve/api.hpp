@@ -15,10 +15,10 @@ namespace rheonet::serve {
 /// What the playground asks for: see tools/web/README.md.
 class Api {
  public:
-  Api(Folder& folder, Pool& pool, const TableReader& keys) : folder_(folder), pool_(pool), keys_(keys) {}
+  Api(Folder& folder, Pool& pool, Keys& keys) : folder_(folder), pool_(pool), keys_(keys) {}
 
-  /// Adds its routes. `host` is the address that is listened at.
-  void attach(Server& server, const std::string& host);
+  /// Adds its routes. `host` is the address that is listened at; `framed_by` the origin whose pages may show the page in a frame, "": none.
+  void attach(Server& server, const std::string& host, const std::string& framed_by);
 
  private:
   using Reader = httplib::ContentReader;
@@ -34,7 +34,7 @@ class Api {
 
   Folder& folder_;
   Pool& pool_;
-  const TableReader& keys_;
+  Keys& keys_;
   std::mutex mutex_;
   std::map<std::string, std::weak_ptr<Job>> sessions_;
 };

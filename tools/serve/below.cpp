@@ -76,7 +76,8 @@ OfferedFolder::OfferedFolder(const fs::path& folder) : folder_(::open(folder.c_s
 std::optional<std::string> OfferedFolder::text_of(const fs::path& path, std::string& why) const {
   constexpr std::size_t most = 64U << 20U;  // bytes of a file: more than a run of the playground has memory and time for
   if (is_hidden(path)) return why = "a name that begins with a dot is hidden, and not served", std::nullopt;
-  if (path.extension() != ".toml" && path.extension() != ".csv") return why = "only .toml and .csv files are served", std::nullopt;
+  const fs::path ending = path.extension();
+  if (ending != ".toml" && ending != ".csv" && ending != ".lesson") return why = "only .toml, .csv and .lesson files are served", std::nullopt;
   return text_below(folder_.get(), path, most, why);
 }
 

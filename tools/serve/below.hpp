@@ -41,7 +41,8 @@ std::optional<std::string> text_below(int root, const std::filesystem::path& fil
 /// Whether a part of a path begins with a dot.
 bool is_hidden(const std::filesystem::path& path);
 
-/// The files that netlists may include, or read as tables: the .toml and .csv files of a folder that are not hidden.
+/// The files that netlists may include, or read as tables, and their lessons: the .toml, .csv and .lesson files of a folder that are not
+/// hidden.
 class OfferedFolder final : public FileOffer {
  public:
   /// Throws std::system_error if it cannot be opened.

@@ -102,6 +102,7 @@ Folder::Listing Folder::scenes() const {
     const auto [page, is_new] = pages.try_emplace(name.parent_path());
     if (is_new) page->second = text_below(root_.get(), name.parent_path() / "README.md", largest_file, why).value_or("");
     found.scenes.push_back({name.string(), seen->title, seen->about, place_of(name.filename().string(), page->second)});
+    if (const auto lesson = text_below(root_.get(), lesson_file_of(name.string()), largest_file, why)) found.scenes.back().lesson = glance_at_lesson(*lesson);
   }
   found.left_out = names.size() - taken;
   return found;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "tools/serve/below.hpp"
+#include "tools/serve/lesson.hpp"
 
 namespace rheonet::serve {
 
@@ -22,6 +23,7 @@ class Folder {
     std::string title;  ///< "" if it has none
     std::string about;  ///< its first words
     std::optional<std::size_t> place = {};  ///< where README.md beside it first names it, from its beginning; if it does
+    std::optional<LessonGlance> lesson = {};  ///< if it has one
   };
   struct Listing {
     std::vector<Entry> scenes;  ///< by name

@@ -4,8 +4,11 @@
 #include <fmt/format.h>
 #include <sys/random.h>
 
+#include <algorithm>
 #include <array>
+#include <cctype>
 #include <cerrno>
+#include <string_view>
 #include <system_error>
 
 namespace rheonet::serve {
@@ -25,12 +28,34 @@ bool is_address(const std::string& text) {
   return inet_pton(AF_INET, text.c_str(), address) == 1 || inet_pton(AF_INET6, text.c_str(), address) == 1;
 }
 
+using Random = std::array<unsigned char, 16>;
+
 /// 128 random bits, which nobody guesses.
-std::string random_word() {
-  std::array<unsigned char, 16> bytes{};
+Random random_bytes() {
+  Random bytes{};
   if (::getrandom(bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size()))
     throw std::system_error(errno, std::generic_category(), "no random numbers");
-  return fmt::format("{:02x}", fmt::join(bytes, ""));
+  return bytes;
+}
+
+std::string random_word() { return fmt::format("{:02x}", fmt::join(random_bytes(), "")); }
+
+constexpr std::string_view letters = "abcdefghijkmnpqrstuvwxyz23456789";  // 32, without l, o, 0 and 1
+constexpr std::size_t code_length = 8;
+
+std::string random_code() {
+  const Random bytes = random_bytes();
+  std::string code;
+  for (std::size_t k = 0; k < code_length; ++k) code += letters[bytes[k] % letters.size()];
+  return code;
+}
+
+/// The code in a path, however it was typed: "/ABCD-EFGH". "" if it is none.
+std::string code_in(const std::string& path) {
+  std::string code;
+  for (const char c : path.substr(1))
+    if (c != '-') code += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return code.size() == code_length && code.find_first_not_of(letters) == std::string::npos ? code : "";
 }
 
 /// Takes as long wherever they differ, so that nothing is learnt from the time.
@@ -53,16 +78,44 @@ std::string cookie_of(const httplib::Request& request, const std::string& name) 
 
 }  // namespace
 
-TableReader::TableReader(int port) : token_(random_word()), page_key_(random_word()), cookie_(fmt::format("rheonet-{}", port)) {}
+Keys::Keys(int port, bool framed)
+    : token_(random_word()), page_key_(random_word()), cookie_(fmt::format("rheonet-{}", port)), code_(random_code()), framed_(framed) {}
 
-bool TableReader::admit(const httplib::Request& request, httplib::Response& response) const {
+bool Keys::admit(const httplib::Request& request, httplib::Response& response) const {
   if (is_same(request.get_header_value("Authorization"), "Bearer " + token_)) return true;
   if (is_same(request.get_param_value("token"), token_)) {
     // From a link that leads to the page the cookie comes too; what else it opens holds nothing of the folder.
     response.set_header("Set-Cookie", fmt::format("{}={}; Path=/; HttpOnly; SameSite=Lax", cookie_, page_key_));
     return true;
   }
+  if (framed_ && (request.path == "/playground.js" || request.path == "/playground.css")) return true;
   return !request.path.starts_with("/api/") && is_same(cookie_of(request, cookie_), page_key_);
+}
+
+bool Keys::may_try() {
+  constexpr double rate = 5, most = 20;  // tries a second, and at once
+  const std::lock_guard lock(mutex_);
+  const auto now = std::chrono::steady_clock::now();
+  tries_ = std::min(most, tries_ + rate * std::chrono::duration<double>(now - last_try_).count());
+  last_try_ = now;
+  if (tries_ < 1) return false;
+  tries_ -= 1;
+  return true;
+}
+
+bool Keys::lead_in(const httplib::Request& request, httplib::Response& response) {
+  const std::string code = request.method == "GET" && request.path.starts_with('/') ? code_in(request.path) : "";
+  if (code.empty()) return false;
+  if (!may_try()) {
+    response.status = 429;
+    response.set_content("Too many addresses were tried. Wait a few seconds, and load this page again.\n", "text/plain; charset=utf-8");
+  } else if (is_same(code, code_)) {
+    response.set_redirect("/" + query());
+  } else {
+    response.status = 404;
+    response.set_content("This address is not the one that `rheonet serve` has printed. Compare the letters.\n", "text/plain; charset=utf-8");
+  }
+  return true;
 }
 
 bool is_this_machine(const std::string& host) { return host == "localhost" || host == "127.0.0.1" || host == "::1"; }

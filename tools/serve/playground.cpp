@@ -108,15 +108,16 @@ std::vector<std::string> hosts_of(const std::string& host) {
 }
 
 /// Says where the playground is, and who can reach it.
-void announce(const ServeArguments& wanted, const Folder& folder, const TableReader& keys, int port) {
+void announce(const ServeArguments& wanted, const Folder& folder, const Keys& keys, int port) {
   const std::vector<std::string> hosts = hosts_of(wanted.host);
   fmt::print("{}{} (Ctrl-C ends it): the netlists of {}\n", address_of(hosts.front(), port), keys.query(),
              printable(folder.path().string()));
-  for (std::size_t k = 1; k < hosts.size(); ++k) fmt::print("  from other machines: {}{}\n", address_of(hosts[k], port), keys.query());
+  for (const std::string& host : hosts)
+    if (!is_this_machine(host)) fmt::print("  from other machines, to type: {}{}\n", address_of(host, port), keys.short_path());
   std::fflush(stdout);
   if (!is_this_machine(wanted.host))
-    say("warning: `--host {}` lets other machines in: whoever has the address with its token can run scenes here{}, and who listens "
-        "in the network can read the token, for nothing is encrypted\n",
+    say("warning: `--host {}` lets other machines in: whoever has the address can run scenes here{}, and who listens "
+        "in the network can read the address, for nothing is encrypted\n",
         printable(wanted.host), folder.may_be_written() ? " and change the netlists of the folder" : "");
 }
 
@@ -132,9 +133,9 @@ ExitStatus listen(const ServeArguments& wanted, Folder& folder) {
                          : "the address is not this machine's, or the port is in use\n  `--port 0` takes any that is free");
     return not_simulated;
   }
-  const TableReader keys(port);
+  Keys keys(port, !wanted.framed_by.empty());
   Api api(folder, pool, keys);
-  api.attach(server, wanted.host);
+  api.attach(server, wanted.host, wanted.framed_by);
   const std::atomic<bool>& interrupted = end_on_signals();
   // A server that does not listen yet takes no notice of being stopped.
   std::atomic<bool> ended = false;

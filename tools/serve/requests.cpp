@@ -1,8 +1,11 @@
 #include "tools/serve/requests.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
+#include <initializer_list>
 #include <nlohmann/json.hpp>
+#include <string_view>
 
 #include "tools/serve/folder.hpp"
 #include "tools/serve/netlist_name.hpp"
@@ -51,6 +54,17 @@ std::optional<json> curve_of(const json& curve) {
   return result;
 }
 
+bool is_one_of(std::string_view kind, std::initializer_list<std::string_view> kinds) { return std::find(kinds.begin(), kinds.end(), kind) != kinds.end(); }
+
+/// A list of strings of a request; absent if it is none, or has more of them than anyone waits for.
+std::optional<json> words_of(const json& request, const char* key) {
+  constexpr std::size_t most = 1000;
+  const auto found = request.find(key);
+  if (found == request.end() || !found->is_array() || found->size() > most) return {};
+  const bool all = std::all_of(found->begin(), found->end(), [](const json& each) { return each.is_string() && each.get_ref<const std::string&>().size() <= longest_name; });
+  return all ? std::optional(json(*found)) : std::nullopt;
+}
+
 }  // namespace
 
 std::string word(const json& value, const char* key) {
@@ -62,11 +76,24 @@ std::string word(const json& value, const char* key) {
 
 std::optional<json> task_of(const json& request) {
   const std::string kind = word(request, "task");
-  if (kind == "show" || kind == "explain" || kind == "csv") {
+  if (is_one_of(kind, {"show", "explain", "csv", "effects", "precision", "lesson"})) {
     std::optional<json> task = scene_of(request);
     if (!task) return {};
     (*task)["task"] = kind;
     (*task)["draw"] = request.value("draw", json()) == true;
+    (*task)["language"] = word(request, "language");
+    return task;
+  }
+  if (kind == "sweep") {
+    std::optional<json> task = scene_of(request);
+    if (!task) return {};
+    (*task)["task"] = kind;
+    (*task)["path"] = word(request, "path");
+    for (const char* key : {"values", "measures", "set"}) {
+      const std::optional<json> list = words_of(request, key);
+      if (!list) return {};
+      (*task)[key] = *list;
+    }
     return task;
   }
   if ((kind != "report" && kind != "figure") || !request.contains("scenes") || !request["scenes"].is_array()) return {};
@@ -95,6 +122,7 @@ json listing_of(const Folder& folder) {
   for (const Folder::Entry& each : listing.scenes) {
     scenes.push_back({{"file", each.file}, {"title", each.title}, {"about", each.about}});
     if (each.place) scenes.back()["place"] = *each.place;
+    if (each.lesson) scenes.back()["lesson"] = {{"level", each.lesson->level}, {"minutes", each.lesson->minutes}};
   }
   return {{"name", folder.path().filename().string()},
           {"may_be_written", folder.may_be_written()},

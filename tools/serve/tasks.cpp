@@ -12,7 +12,9 @@
 #include "tools/report/document.hpp"
 #include "tools/rheonet/both_sides.hpp"
 #include "tools/rheonet/plot_source.hpp"
-#include "tools/rheonet/reading.hpp"
+#include "tools/serve/analyses.hpp"
+#include "tools/serve/lesson.hpp"
+#include "tools/serve/sent_scene.hpp"
 
 namespace rheonet::serve {
 namespace {
@@ -20,31 +22,13 @@ namespace {
 using nlohmann::json;
 using report::Tell;
 
-constexpr std::size_t most_elements = 100'000;
-
-/// A netlist that was sent. Its folder is relative to the served folder.
-struct Sent {
-  std::string text, file, folder;
-};
-
-Sent sent(const json& item) {
-  return {item.at("text").get<std::string>(), item.at("file").get<std::string>(), item.at("folder").get<std::string>()};
-}
-
 using Offers = std::vector<const FileOffer*>;
 
-ReadResult read(const Sent& item, const Offers& offers) {
+/// The netlist as its page shows it.
+ReadResult read(const SentScene& item, const Offers& offers) {
   ReadOptions options;
   options.plotted = true;
-  ReadResult result = tool::read_text(item.text, item.file, item.folder, options, offers);
-  if (result.scene && result.scene->elements.size() > most_elements) {
-    result.diagnostics.push_back({.severity = Severity::error,
-                                  .spot = {0, 1, 1},
-                                  .message = "a scene here may have " + std::to_string(most_elements) + " elements",
-                                  .hint = "`rheonet run` has no such limit"});
-    result.scene.reset();
-  }
-  return result;
+  return read_sent(item, offers, options);
 }
 
 void tell_file(const Tell& tell, const std::string& type, const std::string& text) {
@@ -53,7 +37,7 @@ void tell_file(const Tell& tell, const std::string& type, const std::string& tex
 
 /// Everything that a page shows of a scene.
 void show(const json& task, const Offers& offers, const Tell& tell) {
-  const Sent item = sent(task);
+  const SentScene item = sent_scene(task);
   ReadResult scene = read(item, offers);
   tell(report::mistakes_message(scene));
   if (!scene.scene) return;
@@ -64,14 +48,14 @@ void show(const json& task, const Offers& offers, const Tell& tell) {
 
 /// What is simulated, and why. Not with what a page shows at once: the run is begun for it, which takes a moment.
 void explain_to_page(const json& task, const Offers& offers, const Tell& tell) {
-  const ReadResult scene = read(sent(task), offers);
+  const ReadResult scene = read(sent_scene(task), offers);
   tell(report::mistakes_message(scene));
   if (scene.scene) tell(report::explanation_message(*scene.scene));
 }
 
 /// All rows, every digit.
 void csv(const json& task, const Offers& offers, const Tell& tell) {
-  const ReadResult scene = read(sent(task), offers);
+  const ReadResult scene = read(sent_scene(task), offers);
   tell(report::mistakes_message(scene));
   if (!scene.scene) return;
   MemoryFile rows;
@@ -91,7 +75,7 @@ void report_of(const json& task, const Offers& offers, const Tell& tell) {
   std::vector<std::vector<std::string>> scenes;
   std::string title;
   for (const json& each : task.at("scenes")) {
-    const Sent item = sent(each);
+    const SentScene item = sent_scene(each);
     ReadResult scene = read(item, offers);
     if (!scene.scene) return tell(report::mistakes_message(scene));
     if (title.empty()) title = scene.scene->title.empty() ? item.file : scene.scene->title;
@@ -109,7 +93,7 @@ plot::Shown unit_of(const json& unit) { return {unit.at("name").get<std::string>
 
 /// Simulates a scene for the curves that a page shows of it.
 void add_curves(const json& item, const Offers& offers, std::vector<plot::Measured>& curves, plot::Look& look, const Tell& tell) {
-  ReadResult scene = read(sent(item), offers);
+  ReadResult scene = read(sent_scene(item), offers);
   if (!scene.scene) return tell(report::mistakes_message(scene));
   if (look.title.empty()) look.title = scene.scene->title;
   report::record_what_pages_show(*scene.scene);
@@ -156,6 +140,10 @@ void carry_out(const json& task, const Offers& offers, const Tell& tell) {
     if (kind == "csv") return csv(task, offers, tell);
     if (kind == "report") return report_of(task, offers, tell);
     if (kind == "figure") return figure(task, offers, tell);
+    if (kind == "effects") return weigh_effects(task, offers, tell);
+    if (kind == "precision") return price_accuracy(task, offers, tell);
+    if (kind == "sweep") return sweep_number(task, offers, tell);
+    if (kind == "lesson") return tell_lesson(task, offers, tell);
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& error) {

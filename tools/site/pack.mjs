@@ -15,7 +15,7 @@ const read = (folder, name) => readFileSync(join(folder, name), 'utf8');
 const files = { '/report.html': read(web, 'report.html'), '/units.txt': read(build, 'units.txt') };
 for (const entry of readdirSync(netlists, { withFileTypes: true, recursive: true })) {
   const path = join(entry.parentPath ?? entry.path, entry.name);
-  if (entry.isFile() && /\.(toml|csv)$|^README\.md$/.test(entry.name)) files[`/netlists/${relative(netlists, path)}`] = readFileSync(path, 'utf8');
+  if (entry.isFile() && /\.(toml|csv|lesson)$|^README\.md$/.test(entry.name)) files[`/netlists/${relative(netlists, path)}`] = readFileSync(path, 'utf8');
 }
 
 // What the module holds besides rheonet.

@@ -39,6 +39,7 @@ async function bundle(entry) {
     format: 'iife',
     target: 'es2020',
     charset: 'utf8',
+    loader: { '.txt': 'text' },
     legalComments: 'none',
     nodePaths: [join(output, 'node_modules')],
     outdir: output,

@@ -4,6 +4,7 @@ import { EnergyBars } from './energy-bars.js';
 import { ForceArrows } from './force-arrows.js';
 import { Labels } from './labels.js';
 import { farthestShift, MotionScale, roundBelow } from './motion-scale.js';
+import { t } from './messages.js';
 import { SymbolMotion } from './symbol-motion.js';
 import { Turning } from './turning.js';
 import { number, shownIn, timeShown, withUnit } from './units.js';
@@ -19,19 +20,19 @@ export class Animation {
     this.onframe = onframe;
     this.playing = false;
     this.place = 0; // of the run, 0 to 1
-    this.button = element('button', { type: 'button', class: 'play', 'aria-pressed': 'false', onclick: () => this.toggle() }, '▶ Play');
-    this.scrub = element('input', { type: 'range', min: '0', max: '1000', value: '0', 'aria-label': 'Time' });
+    this.button = element('button', { type: 'button', class: 'play', 'aria-pressed': 'false', onclick: () => this.toggle() }, t('▶ Play'));
+    this.scrub = element('input', { type: 'range', min: '0', max: '1000', value: '0', 'aria-label': t('Time') });
     this.scrub.addEventListener('input', () => {
       this.stop();
       this.place = Number(this.scrub.value) / 1000;
       this.draw();
     });
-    this.speed = element('select', { 'aria-label': 'Speed' });
+    this.speed = element('select', { 'aria-label': t('Speed') });
     this.clock = element('output', { class: 'clock' });
-    const toggle = (name) => element('label', { class: 'toggle' }, element('input', { type: 'checkbox', 'data-shows': name.toLowerCase(), onchange: () => this.draw() }), ` ${name}`);
-    this.toggles = { forces: toggle('Forces'), energy: toggle('Energy') };
+    const toggle = (name, text) => element('label', { class: 'toggle' }, element('input', { type: 'checkbox', 'data-shows': name, onchange: () => this.draw() }), ` ${text}`);
+    this.toggles = { forces: toggle('forces', t('Forces')), energy: toggle('energy', t('Energy')) };
     this.legend = element('p', { class: 'motion-legend' });
-    this.bars = new EnergyBars(this.energy = element('div', { class: 'energy-bars', role: 'group', 'aria-label': 'Energy', hidden: true }));
+    this.bars = new EnergyBars(this.energy = element('div', { class: 'energy-bars', role: 'group', 'aria-label': t('Energy'), hidden: true }));
     this.host = host;
     host.hidden = true; // until there is something to move
     host.append(this.button, this.scrub, this.clock, this.speed, ...Object.values(this.toggles), this.legend, this.energy);
@@ -105,8 +106,8 @@ export class Animation {
     const span = stop - start;
     const options = lengths.map((length) => [length, span / length]);
     if (span >= 0.5 && span <= 120 && !lengths.includes(span)) options.push([span, 1]);
-    const label = ([length, rate]) => (Math.abs(rate - 1) < 1e-9 ? `as it is (${number(length, 3)} s)`
-      : `${rate < 1 ? `${number(1 / rate, 2)} times slower` : `${number(rate, 2)} times faster`} (${number(length, 3)} s)`);
+    const label = ([length, rate]) => (Math.abs(rate - 1) < 1e-9 ? t('as it is ({s} s)', { s: number(length, 3) })
+      : rate < 1 ? t('{factor} times slower ({s} s)', { factor: number(1 / rate, 2), s: number(length, 3) }) : t('{factor} times faster ({s} s)', { factor: number(rate, 2), s: number(length, 3) }));
     const key = String(span);
     if (this.speed.dataset.span === key) return;
     this.speed.dataset.span = key;
@@ -131,11 +132,11 @@ export class Animation {
     }
     if (this.turning.all.length) {
       const { turn } = scale;
-      parts.push(element('span', { class: 'key', 'data-turn': String(turn) }, '⟳ ', turn === 1 ? 'angles as they are' : turn < 1 ? `one turn drawn is ${number(1 / turn, 3)} turns` : `angles are drawn ${number(turn, 3)} times as large`));
+      parts.push(element('span', { class: 'key', 'data-turn': String(turn) }, '⟳ ', turn === 1 ? t('angles as they are') : turn < 1 ? t('one turn drawn is {turns} turns', { turns: number(1 / turn, 3) }) : t('angles are drawn {factor} times as large', { factor: number(turn, 3) })));
     }
-    if (scale.drift.size) parts.push(element('span', { class: 'key' }, element('span', { class: 'swatch running' }), 'runs on beyond the drawing'));
+    if (scale.drift.size) parts.push(element('span', { class: 'key' }, element('span', { class: 'swatch running' }), t('runs on beyond the drawing')));
     if (this.parts.some(({ slides }) => slides))
-      for (const [kind, text] of [['stick', 'sticks'], ['slip', 'slips']]) parts.push(element('span', { class: 'key' }, element('span', { class: `swatch ${kind}` }), text));
+      for (const [kind, text] of [['stick', t('sticks')], ['slip', t('slips')]]) parts.push(element('span', { class: 'key' }, element('span', { class: `swatch ${kind}` }), text));
     this.arrowKeys = this.forces.legend.map(({ px, of, unit }) => bar(px, `${withUnit(of, unit, 3)}`, 'arrow'));
     this.legend.replaceChildren(...parts, ...this.arrowKeys);
   }
@@ -184,7 +185,7 @@ export class Animation {
   start() {
     this.playing = true;
     if (this.place >= 1) this.place = 0;
-    this.button.textContent = '❚❚ Pause';
+    this.button.textContent = t('❚❚ Pause');
     this.button.setAttribute('aria-pressed', 'true');
     let before = performance.now();
     const frame = (now) => {
@@ -201,7 +202,7 @@ export class Animation {
 
   stop() {
     this.playing = false;
-    this.button.textContent = '▶ Play';
+    this.button.textContent = t('▶ Play');
     this.button.setAttribute('aria-pressed', 'false');
   }
 }

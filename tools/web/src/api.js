@@ -1,5 +1,6 @@
 // What the playground asks for: of the server that the page comes from, or of rheonet in the page itself.
 import * as engine from './engine.js';
+import { t } from './messages.js';
 import * as server from './server.js';
 
 const transport = document.querySelector('meta[name="rheonet-engine"]') ? engine : server;
@@ -23,7 +24,7 @@ async function answer(request, kind) {
     if (message.kind === 'failed') wrong = message.message;
     if (message.kind === 'mistakes') wrong ??= message.items.find((item) => item.severity === 'error')?.message;
   });
-  if (!made) throw new Error(wrong ?? 'nothing came back');
+  if (!made) throw new Error(wrong ?? t('nothing came back'));
   return made;
 }
 

@@ -1,5 +1,6 @@
 // How far runs are from the first, record by record.
 import { element, table } from './dom.js';
+import { t } from './messages.js';
 import { number, withUnit } from './units.js';
 
 // The value of a column at a time, straight between rows.
@@ -48,6 +49,6 @@ export function differencesOf(runs) {
       rows.push([`${first.label} – ${label}`, element('code', {}, path), withUnit(largest, unit), scale > 0 ? number(largest / scale, 3) : '0',
         largest > 0 ? `${number(at)}\u00a0s` : '–', withUnit(rms, unit)]);
     }
-  if (!rows.length) return element('p', { class: 'note' }, 'The scenes record nothing under the same name and in the same unit.');
-  return table(['scenes', 'record', 'largest difference', 'relative', 'at', 'root mean square'], rows, 'Differences');
+  if (!rows.length) return element('p', { class: 'note' }, t('The scenes record nothing under the same name and in the same unit.'));
+  return table([t('scenes'), t('record'), t('largest difference'), t('relative'), t('at'), t('root mean square')], rows, t('Differences'));
 }

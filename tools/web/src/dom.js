@@ -11,6 +11,7 @@ export function element(name, attributes = {}, ...children) {
   node.append(...children.flat(Infinity).filter((child) => child !== null && child !== undefined && child !== false));
   return node;
 }
+import { t } from './messages.js';
 
 // Tells its style sheet on which side of a part of the page that scrolls there is more of it.
 function tellMore(host) {
@@ -59,7 +60,7 @@ export const legible = 0.9;
 export function schematicOf(scene, { read = true } = {}) {
   const host = element('div', { class: 'schematic' });
   if (!scene.schematic) {
-    host.append(element('p', { class: 'note' }, `It is not drawn: ${scene.no_schematic}.`));
+    host.append(element('p', { class: 'note' }, t('It is not drawn: {why}.', { why: scene.no_schematic })));
     return host;
   }
   host.innerHTML = scene.schematic
@@ -68,13 +69,13 @@ export function schematicOf(scene, { read = true } = {}) {
     .replaceAll('#ffffff', 'var(--paper)')
     .replaceAll('#666666', 'var(--faint)');
   const svg = host.querySelector('svg');
-  svg.setAttribute('aria-label', `Schematic of ${scene.title || scene.file}`);
+  svg.setAttribute('aria-label', t('Schematic of {title}', { title: scene.title || scene.file }));
   if (read) {
     svg.style.minWidth = `${legible * svg.getAttribute('width')}px`;
     svg.style.minHeight = `${legible * svg.getAttribute('height')}px`;
     host.tabIndex = 0;
     host.setAttribute('role', 'group');
-    host.setAttribute('aria-label', 'Schematic');
+    host.setAttribute('aria-label', t('Schematic'));
     tellMore(host);
   }
   svg.style.maxWidth = `${svg.getAttribute('width')}px`;

@@ -1,6 +1,7 @@
 // How large a schematic is drawn: all of it if its letters can be read then, else as large as they need, to be moved about. Buttons,
 // the wheel with Ctrl, and two fingers zoom; one finger or the mouse, on what is empty, moves it.
 import { element, legible } from './dom.js';
+import { t } from './messages.js';
 
 const largest = 4; // times its own size
 const factor = 1.25; // of a press on a button
@@ -10,9 +11,9 @@ export class DrawingView {
     this.host = host;
     this.zoom = null; // nobody has chosen
     this.most = 1; // that is chosen without anybody's asking, times its own size
-    const button = (text, label, act) => element('button', { type: 'button', 'aria-label': text === 'Fit' ? null : label, title: label, onclick: act }, text);
-    this.controls = element('div', { class: 'zoom', role: 'group', 'aria-label': 'Size of the schematic' },
-      button('−', 'Smaller', () => this.by(1 / factor)), button('+', 'Larger', () => this.by(factor)), button('Fit', 'All of the schematic', () => this.fit()));
+    const button = (text, label, act) => element('button', { type: 'button', 'aria-label': /\w/.test(text) ? null : label, title: label, onclick: act }, text);
+    this.controls = element('div', { class: 'zoom', role: 'group', 'aria-label': t('Size of the schematic') },
+      button('−', t('Smaller'), () => this.by(1 / factor)), button('+', t('Larger'), () => this.by(factor)), button(t('Fit'), t('All of the schematic'), () => this.fit()));
     new ResizeObserver(() => this.place()).observe(host);
     host.addEventListener('wheel', (event) => {
       if (!event.ctrlKey) return;

@@ -6,6 +6,7 @@ import { lintGutter, lintKeymap, setDiagnostics } from '@codemirror/lint';
 import { EditorState } from '@codemirror/state';
 import { drawSelection, EditorView, highlightActiveLine, highlightActiveLineGutter, keymap, lineNumbers } from '@codemirror/view';
 import { tags } from '@lezer/highlight';
+import { t } from './messages.js';
 
 const colours = HighlightStyle.define([
   { tag: tags.comment, color: 'var(--code-comment)', fontStyle: 'italic' },
@@ -41,7 +42,7 @@ export class Editor {
       extensions: [
         lineNumbers(), highlightActiveLine(), highlightActiveLineGutter(), drawSelection(), history(), bracketMatching(),
         StreamLanguage.define(toml), syntaxHighlighting(colours), look, lintGutter(), EditorView.lineWrapping,
-        EditorView.contentAttributes.of({ 'aria-label': 'Netlist', tabindex: '0' }),
+        EditorView.contentAttributes.of({ 'aria-label': t('Netlist'), tabindex: '0' }),
         keymap.of([...defaultKeymap, ...historyKeymap, ...lintKeymap]),
         EditorView.updateListener.of((update) => {
           if (!update.docChanged) return;
@@ -63,8 +64,12 @@ export class Editor {
 
   // Puts something in place of a part of the text; not as if it had been typed.
   replace(from, to, insert) {
+    this.replaceAll([{ from, to, insert }]);
+  }
+
+  replaceAll(changes) {
     this.quiet = true;
-    this.view.dispatch({ changes: { from, to, insert }, userEvent: 'slide' });
+    this.view.dispatch({ changes, userEvent: 'slide' });
     this.quiet = false;
   }
 

@@ -1,5 +1,6 @@
 // The transport to rheonet as WebAssembly, which runs in Web Workers of this page. Its parts (the worker's script, the module, the
 // netlists) are elements of the page, in the page that is a single file, or else files beside it.
+import { t } from './messages.js';
 
 async function inflated(part) {
   const embedded = document.getElementById(`part-${part}`)?.textContent;
@@ -13,7 +14,7 @@ async function inflated(part) {
 
 async function answered(file) {
   const response = await fetch(new URL(file, document.baseURI)).catch(() => null);
-  if (!response?.ok) throw new Error(`a part of this page cannot be loaded: ${file}`);
+  if (!response?.ok) throw new Error(t('a part of this page cannot be loaded: {file}', { file }));
   return response;
 }
 
@@ -43,7 +44,7 @@ class Desk {
     const { address, module, files } = await parts;
     this.worker = new Worker(address);
     this.worker.onmessage = ({ data }) => this.take(data);
-    this.worker.onerror = ({ message }) => this.take({ wrong: message || 'the worker of this page has ended' });
+    this.worker.onerror = ({ message }) => this.take({ wrong: message || t('the worker of this page has ended') });
     this.worker.postMessage({ module, files });
   }
 
@@ -128,7 +129,7 @@ export const folder = () => one('/api/folder', {});
 export const open = (file) => one('/api/scene', { file });
 
 export const save = async () => {
-  throw new Error('this page has no folder to save in');
+  throw new Error(t('this page has no folder to save in'));
 };
 
 export const task = (request, onmessage, signal) =>

@@ -1,6 +1,7 @@
 // Files of what is seen.
 import { file } from './api.js';
 import { element } from './dom.js';
+import { t } from './messages.js';
 
 export function download(blob, name) {
   const link = element('a', { href: URL.createObjectURL(blob), download: name });
@@ -17,9 +18,9 @@ export function raster(svg) {
     image.onload = () => {
       const canvas = element('canvas', { width: image.width * 2, height: image.height * 2 });
       canvas.getContext('2d').drawImage(image, 0, 0, canvas.width, canvas.height);
-      canvas.toBlob((blob) => (blob ? resolve(blob) : reject(new Error('the picture is too large'))), 'image/png');
+      canvas.toBlob((blob) => (blob ? resolve(blob) : reject(new Error(t('the picture is too large')))), 'image/png');
     };
-    image.onerror = () => reject(new Error('the picture cannot be drawn'));
+    image.onerror = () => reject(new Error(t('the picture cannot be drawn')));
     image.src = `data:image/svg+xml;charset=utf-8,${encodeURIComponent(svg)}`;
   });
 }
@@ -30,11 +31,11 @@ export function exporters({ scenes, active, drawn, schematic, name }) {
   const figure = () => file({ task: 'figure', scenes: drawn });
   const drawing = () => new Blob([schematic], { type: 'image/svg+xml' });
   return [
-    { label: 'Rows (CSV)', make: () => file({ task: 'csv', ...scenes[active] }), name: `${name}.csv` },
-    { label: 'Plots (SVG)', make: figure, name: `${name}-plots.svg` },
-    { label: 'Plots (PNG)', make: async () => raster(await (await figure()).text()), name: `${name}-plots.png` },
-    { label: 'Schematic (SVG)', make: async () => drawing(), name: `${name}.svg` },
-    { label: 'Schematic (PNG)', make: () => raster(schematic), name: `${name}.png` },
-    { label: 'Report (HTML)', make: () => file({ task: 'report', scenes }), name: `${name}-report.html` },
+    { label: t('Rows (CSV)'), make: () => file({ task: 'csv', ...scenes[active] }), name: `${name}.csv` },
+    { label: t('Plots (SVG)'), make: figure, name: `${name}-plots.svg` },
+    { label: t('Plots (PNG)'), make: async () => raster(await (await figure()).text()), name: `${name}-plots.png` },
+    { label: t('Schematic (SVG)'), make: async () => drawing(), name: `${name}.svg` },
+    { label: t('Schematic (PNG)'), make: () => raster(schematic), name: `${name}.png` },
+    { label: t('Report (HTML)'), make: () => file({ task: 'report', scenes }), name: `${name}-report.html` },
   ];
 }

@@ -2,17 +2,21 @@
 import { folder, open } from './api.js';
 import { download, exporters } from './export.js';
 import { firstScene } from './first-scene.js';
-import { Gallery } from './gallery.js';
+import { Gallery, inOrder } from './gallery.js';
 import { decode, encode } from './link.js';
+import { t } from './messages.js';
+import { showCode } from './qr-dialog.js';
 import { SaveDialog } from './save-dialog.js';
 
 const pause = 400; // ms after a change until it is kept: browsers count how often somebody writes into their history
+
+const folderOf = (file) => file.slice(0, file.lastIndexOf('/') + 1);
 
 export class Files {
   constructor(desk) {
     this.desk = desk;
     this.folder = { scenes: [], may_be_written: false };
-    this.gallery = new Gallery({ onopen: (file) => this.openFile(file, true) });
+    this.gallery = new Gallery({ onopen: (file, isLesson) => this.openFile(file, true, isLesson) });
     this.saving = new SaveDialog({ onsaved: (saved) => this.saved(saved) });
     addEventListener('popstate', (event) => this.openAddress(event.state));
     addEventListener('beforeunload', () => this.keep());
@@ -35,7 +39,7 @@ export class Files {
 
   // What the address names, or else a scene to begin with. Changes that were never saved are as they were left.
   async openAddress(left) {
-    if (left?.scenes) this.desk.begin(left, 'The netlist is as you left it; it is not saved.');
+    if (left?.scenes) this.desk.begin(left, t('The netlist is as you left it; it is not saved.'));
     else if (await this.openLink()) return true;
     else this.desk.begin({ scenes: [{ text: firstScene, file: 'scene.toml' }] });
     return Boolean(left?.scenes);
@@ -44,25 +48,30 @@ export class Files {
   async openLink() {
     const [kind, value] = location.hash.slice(1).split(/=(.*)/s);
     try {
-      if (kind === 'file') return await this.openFile(decodeURIComponent(value));
-      if (kind !== 'scene') return false;
-      const { scenes, plots } = await decode(value);
+      if (kind === 'file' || kind === 'lesson') return await this.openFile(decodeURIComponent(value), false, kind === 'lesson');
+      if (kind !== 'scene' && kind !== 's') return false;
+      const { scenes, plots } = decode(kind, value);
       this.desk.begin({ scenes: scenes.slice(0, 2).map(({ text, file }) => ({ text: String(text), file: String(file) })), plots });
       return true;
     } catch {
       // What the browser says of it (of characters and compression) helps nobody.
-      this.desk.notify('The link cannot be read: a part of it is missing, or was changed on its way. Ask for it once more.');
+      this.desk.notify(t('The link cannot be read: a part of it is missing, or was changed on its way. Ask for it once more.'));
       return false;
     }
   }
 
-  // `anew`: there is a way back to what was there before.
-  async openFile(file, anew = false) {
+  // The netlists beside this one that have a lesson, in the order of the gallery.
+  lessons() {
+    return this.folder.scenes.filter(({ file, lesson }) => lesson && folderOf(file) === folderOf(this.desk.current.file)).sort(inOrder);
+  }
+
+  // `anew`: there is a way back to what was there before; `lesson`: the netlist is opened for its lesson.
+  async openFile(file, anew = false, lesson = false) {
     try {
       const { text, version } = await open(file);
       if (anew) this.keep();
-      this.nameInAddress(file, anew);
-      this.desk.begin({ scenes: [{ text, file, version }] });
+      this.nameInAddress(file, anew, lesson);
+      this.desk.begin({ scenes: [{ text, file, version }], lesson });
       return true;
     } catch (error) {
       this.desk[anew ? 'say' : 'notify'](`${file}: ${error.message}`, true);
@@ -70,8 +79,8 @@ export class Files {
     }
   }
 
-  nameInAddress(file, anew = false) {
-    history[anew ? 'pushState' : 'replaceState'](null, '', `#file=${encodeURIComponent(file)}`);
+  nameInAddress(file, anew = false, lesson = false) {
+    history[anew ? 'pushState' : 'replaceState'](null, '', `#${lesson ? 'lesson' : 'file'}=${encodeURIComponent(file)}`);
   }
 
   changed() {
@@ -100,9 +109,9 @@ export class Files {
     const { file, version, text } = this.desk.current;
     const here = this.folder.may_be_written;
     return [
-      here && version && { label: `Save as ${file}`, act: () => this.save() },
-      here && { label: 'Save in the folder as …', act: () => this.saving.saveAs({ file, version, text }) },
-      { label: 'Download the netlist', act: () => this.downloadNetlist() },
+      here && version && { label: t('Save as {file}', { file }), act: () => this.save() },
+      here && { label: t('Save in the folder as …'), act: () => this.saving.saveAs({ file, version, text }) },
+      { label: t('Download the netlist'), act: () => this.downloadNetlist() },
     ].filter(Boolean);
   }
 
@@ -121,7 +130,7 @@ export class Files {
     this.nameInAddress(file);
     this.keep();
     desk.showTitle(desk.current.data.scene?.title);
-    desk.answer(`Saved as ${file}.`);
+    desk.answer(t('Saved as {file}.', { file }));
     await this.look();
   }
 
@@ -131,29 +140,39 @@ export class Files {
     const curves = desk.plots.drawnCurves();
     const drawn = desk.plots.runs.map(({ text, file }, k) => ({ text, file, curves: curves[k] }));
     return exporters({ scenes, active: desk.active, drawn, schematic: desk.current.data.scene?.schematic ?? '', name: this.name })
-      .map((exporter) => ({ label: exporter.label, act: () => this.export(exporter) }));
+      .map((exporter) => ({ label: exporter.label, act: () => this.export(exporter) }))
+      .concat({ label: t('Link as a QR code'), act: () => this.showCode() });
   }
 
   async export({ make, name }) {
     const { desk } = this;
-    desk.say(`Making ${name} …`);
+    desk.say(t('Making {name} …', { name }));
     try {
       download(await make(), name);
-      desk.answer(`Made ${name}.`);
+      desk.answer(t('Made {name}.', { name }));
     } catch (error) {
-      desk.answer(`Not made: ${error.message}`, true);
+      desk.answer(t('Not made: {why}', { why: error.message }), true);
     }
   }
 
-  async copyLink() {
+  // The address of the page carries the scene from now on.
+  putInAddress() {
     const { variants, plots } = this.desk;
-    const scenes = variants.map(({ text, file }) => ({ text, file }));
-    history.replaceState(history.state, '', `#scene=${await encode({ scenes, plots: plots.state })}`);
+    history.replaceState(history.state, '', `#${encode({ scenes: variants, plots: plots.state })}`);
+  }
+
+  showCode() {
+    this.putInAddress();
+    showCode(location.href);
+  }
+
+  async copyLink() {
+    this.putInAddress();
     try {
       await navigator.clipboard.writeText(location.href);
-      this.desk.answer('The link is copied: it carries the scene.');
+      this.desk.answer(t('The link is copied: it carries the scene.'));
     } catch {
-      this.desk.answer('The address of this page carries the scene.');
+      this.desk.answer(t('The address of this page carries the scene.'));
     }
   }
 }

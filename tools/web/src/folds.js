@@ -1,15 +1,29 @@
 // What there is to say of a run, folded away until somebody opens it.
+import './analysis.css';
+import { Analysis } from './analysis.js';
+import { explain } from './api.js';
 import { differencesOf } from './differences.js';
 import { element } from './dom.js';
-import { accuracyOf, claimsOf, elementsOf, energyOf, equationsOf, eventsOf, explanationOf, inWords, notesOf, statisticsOf } from './sections.js';
-import { number } from './units.js';
+import { effectsOf } from './effects.js';
+import { t } from './messages.js';
+import { pricesOf } from './prices.js';
+import { claimsOf, elementsOf, energyOf, equationsOf, eventsOf, explanationOf, inWords, notesOf, statisticsOf } from './sections.js';
+import { SweepPanel } from './sweep.js';
 
 export class Folds {
-  // explain() asks for what is simulated of the netlist that is edited, and why.
-  constructor(host, explain) {
+  // request(): the netlist that is edited: its text, file and session.
+  constructor(host, request) {
     this.host = host;
-    this.explain = explain;
+    this.request = request;
     this.charts = [];
+    this.effects = new Analysis('effects', effectsOf);
+    this.prices = new Analysis('precision', ({ prices }, charts) => (prices ? pricesOf(prices, this.isExact, inWords, charts) : []));
+    this.sweep = new SweepPanel();
+  }
+
+  // The text has changed: what takes long is of no use any more.
+  stop() {
+    [this.effects, this.prices, this.sweep].forEach((analysis) => analysis.stop());
   }
 
   // Those that are open stay open. `runs` are all that are compared, `data` is the one that is edited.
@@ -18,26 +32,29 @@ export class Folds {
     this.charts.forEach((chart) => chart.destroy());
     this.charts = [];
     const { scene, done } = data;
+    this.isExact = done?.statistics.arc_steps > 0 && done.statistics.arc_steps === done.statistics.steps;
     const compared = runs.filter((run) => run.data.hasCurves);
     this.host.replaceChildren(...[
-      compared.length > 1 ? this.fold('Differences', () => differencesOf(compared)) : null,
-      this.fold('What is simulated, and why', () => this.explanation()),
-      this.fold('Equations', () => equationsOf(scene)),
-      this.fold('Elements', () => elementsOf(scene)),
-      data.hasEnergy ? this.fold('Energy account', () => energyOf(data, this.charts)) : null,
-      this.fold('Events', () => eventsOf(data)),
-      done?.claims.length ? this.fold('Claims', () => claimsOf(data)) : null,
-      done ? this.fold('Statistics', () => statisticsOf(data)) : null,
-      done?.notes.length || data.mistakes.length ? this.fold('Notes', () => notesOf(data)) : null,
-      this.fold('Accuracy', () => accuracyOf(data, this.charts) ?? element('p', { class: 'note' },
-        inWords(`The scene asks for ${number(scene.accuracy)}. \`rheonet report --certify --precision\` measures what is reached, and what it costs.`))),
+      compared.length > 1 ? this.fold('Differences', t('Differences'), t('Differences'), () => differencesOf(compared)) : null,
+      this.fold('What is simulated, and why', t('What is simulated, and why'), t('What is simulated, and why'), () => this.explanation()),
+      this.fold('Equations', t('Equations'), t('Equations'), () => equationsOf(scene)),
+      this.fold('Elements', t('Elements'), t('Elements'), () => elementsOf(scene)),
+      data.hasEnergy ? this.fold('Energy account', t('Energy account'), t('Energy account'), () => energyOf(data, this.charts)) : null,
+      this.fold('Events', t('Events'), t('Events'), () => eventsOf(data)),
+      done?.claims.length ? this.fold('Claims', t('Claims'), t('Claims'), () => claimsOf(data)) : null,
+      done ? this.fold('Statistics', t('Statistics'), t('Statistics'), () => statisticsOf(data)) : null,
+      done?.notes.length || data.mistakes.length ? this.fold('Notes', t('Notes'), t('Notes'), () => notesOf(data)) : null,
+      done ? this.fold('Effects', t('Effects'), t('Effects'), () => this.effects.show(this.request())) : null,
+      done ? this.fold('Price of accuracy', t('Price of accuracy'), t('Price of accuracy'), () => this.prices.show(this.request())) : null,
+      this.fold('Sweep', t('Sweep'), () => this.sweep.show(scene, this.request())),
     ].filter(Boolean));
   }
 
   // It takes a moment, in which what was said before stays.
   explanation() {
-    const host = element('div', {}, this.explained ?? element('p', { class: 'note' }, 'Looking at it …'));
-    const asked = (this.asked = this.explain());
+    const host = element('div', {}, this.explained ?? element('p', { class: 'note' }, t('Looking at it …')));
+    const request = this.request();
+    const asked = (this.asked = explain({ ...request, session: `${request.session}-why` }));
     asked.then(explanationOf, (error) => element('p', { class: 'note bad' }, error.message)).then((explained) => {
       if (asked !== this.asked) return;
       this.explained = explained;
@@ -46,14 +63,14 @@ export class Folds {
     return host;
   }
 
-  // Its content is made when it is opened.
-  fold(name, make) {
-    const details = element('details', { 'data-name': name, open: this.opened.has(name) }, element('summary', {}, name));
+  // Its content is made when it is opened; `name` is the same in every language.
+  fold(name, heading, make) {
+    const details = element('details', { 'data-name': name, open: this.opened.has(name) }, element('summary', {}, heading));
     const fill = () => {
       if (!details.open || details.dataset.full) return;
       details.dataset.full = 'yes';
       const content = [make()].flat().filter(Boolean);
-      details.append(...(content.length ? content : [element('p', { class: 'note' }, 'None.')]));
+      details.append(...(content.length ? content : [element('p', { class: 'note' }, t('None.'))]));
     };
     details.addEventListener('toggle', fill);
     queueMicrotask(fill);

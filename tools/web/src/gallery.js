@@ -1,30 +1,35 @@
 // The netlists of the folder, to choose from.
 import { open, task } from './api.js';
 import { element, schematicOf } from './dom.js';
+import { aboutLesson } from './lesson.js';
+import { t } from './messages.js';
 import { inWords } from './sections.js';
 
 const words = new Intl.Collator('en', { numeric: true });
 const byName = (a, b) => words.compare(a.title || a.file, b.title || b.file) || words.compare(a.file, b.file);
 // In the order in which the page of their folder tells of them; what it leaves out comes last.
-const inOrder = (a, b) => (a.place ?? Infinity) - (b.place ?? Infinity) || byName(a, b);
+export const inOrder = (a, b) => (a.place ?? Infinity) - (b.place ?? Infinity) || byName(a, b);
 
 // Scenes for beginners come first, scenes that test the solver last.
 const rank = (folder) => (folder.startsWith('teaching') ? 0 : folder.startsWith('hard') ? 2 : 1);
 
 // The note below the gallery if the folder has more netlists than it lists.
 function leftOutOf(shown, leftOut, allVisited) {
-  const others = allVisited ? `${leftOut} other .toml files of the folder are` : `${leftOut} or more other .toml files of the folder are`;
-  return `${shown} netlists are listed; ${others} not. To see them, serve a folder with fewer: rheonet serve FOLDER/SUBFOLDER`;
+  const values = { shown, others: leftOut };
+  const listed = allVisited
+    ? t('{shown} netlists are listed; {others} other .toml files of the folder are not.', values)
+    : t('{shown} netlists are listed; {others} or more other .toml files of the folder are not.', values);
+  return `${listed} ${t('To see them, serve a folder with fewer: rheonet serve FOLDER/SUBFOLDER')}`;
 }
 
 export class Gallery {
   constructor({ onopen }) {
     this.onopen = onopen;
-    this.find = element('input', { type: 'search', placeholder: 'find', 'aria-label': 'Find netlists' });
+    this.find = element('input', { type: 'search', placeholder: t('find'), 'aria-label': t('Find netlists') });
     this.list = element('div', { class: 'cards' });
     this.dialog = element('dialog', { class: 'gallery', 'aria-labelledby': 'gallery-title' },
-      element('div', { class: 'dialog-head' }, element('h2', { id: 'gallery-title' }, 'Gallery'), this.find,
-        element('button', { type: 'button', onclick: () => this.dialog.close(), 'aria-label': 'Close' }, '✕')),
+      element('div', { class: 'dialog-head' }, element('h2', { id: 'gallery-title' }, t('Gallery')), this.find,
+        element('button', { type: 'button', onclick: () => this.dialog.close(), 'aria-label': t('Close') }, '✕')),
       (this.nothing = element('p', { class: 'note', role: 'status' })), this.list);
     this.find.addEventListener('input', () => this.filter());
     document.body.append(this.dialog);
@@ -45,17 +50,19 @@ export class Gallery {
       element('section', { class: 'card-group' }, folder ? element('h3', {}, folder) : null,
         element('div', { class: 'card-grid' }, groups.get(folder).sort(inOrder).map((scene) => this.card(scene))))));
     if (leftOut || !allVisited) this.list.append(element('p', { class: 'note' }, leftOutOf(scenes.length, leftOut, allVisited)));
-    if (!scenes.length) this.list.append(element('p', { class: 'note' }, 'The folder has no netlists yet: write one in the editor, and save it.'));
+    if (!scenes.length) this.list.append(element('p', { class: 'note' }, t('The folder has no netlists yet: write one in the editor, and save it.')));
   }
 
   card(scene) {
     const picture = element('div', { class: 'card-picture', 'aria-hidden': 'true' });
     const card = element('button', { type: 'button', class: 'card', 'data-file': scene.file },
-      picture, element('span', { class: 'card-title' }, scene.title || scene.file), element('span', { class: 'card-about' }, scene.about || scene.file),
+      picture, element('span', { class: 'card-title' }, scene.title || scene.file),
+      scene.lesson ? element('span', { class: 'card-lesson' }, t('Lesson: {about}', { about: aboutLesson(scene.lesson) })) : null,
+      element('span', { class: 'card-about' }, scene.about || scene.file),
       scene.title && scene.about && this.names.get(scene.title) > 1 ? element('code', { class: 'card-file' }, scene.file.split('/').at(-1)) : null);
     card.addEventListener('click', () => {
       this.dialog.close();
-      this.onopen(scene.file);
+      this.onopen(scene.file, Boolean(scene.lesson));
     });
     this.drawn.observe(card);
     return card;
@@ -78,9 +85,9 @@ export class Gallery {
 
   // What it would be about is of no use until it can be read.
   refuse(card, { line, column, message }) {
-    card.querySelector('.card-picture').replaceChildren(element('span', { class: 'note' }, 'no schematic'));
+    card.querySelector('.card-picture').replaceChildren(element('span', { class: 'note' }, t('no schematic')));
     const about = card.querySelector('.card-about');
-    about.replaceChildren(`It cannot be read: ${line ? `${line}:${column}: ` : ''}`, ...inWords(message));
+    about.replaceChildren(t('It cannot be read: {place}', { place: line ? `${line}:${column}: ` : '' }), ...inWords(message));
     about.classList.add('bad');
   }
 
@@ -92,7 +99,7 @@ export class Gallery {
     }
     for (const group of this.list.querySelectorAll('.card-group')) group.hidden = !group.querySelector('.card:not([hidden])');
     const found = this.list.querySelector('.card:not([hidden])') || !words.length;
-    this.nothing.textContent = found ? '' : `No netlist has the words “${this.find.value.trim()}” in its name, title or question.`;
+    this.nothing.textContent = found ? '' : t('No netlist has the words “{words}” in its name, title or question.', { words: this.find.value.trim() });
   }
 
   open() {

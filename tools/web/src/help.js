@@ -1,5 +1,6 @@
 // What can be done, and by which keys.
 import { element } from './dom.js';
+import { t } from './messages.js';
 
 // The page that is a single file has the licences in it.
 function addressOfLicences() {
@@ -8,13 +9,13 @@ function addressOfLicences() {
 }
 
 export function helpDialog() {
-  const keys = [['Ctrl S', 'save the netlist'], ['Space', 'play the run, or pause (outside the editor)'], ['P', 'present: question, schematic, plots and sliders on one screen, or back'], ['F', 'full screen'], ['E', 'the netlist, while presenting'],
-    ['R', 'all numbers as the scene was opened'], ['T', 'freeze the curves'], ['M', 'measure with two cursors'], ['H', 'hold the axes'], ['← →', 'turn the slider that has the focus; move in a plot'],
-    ['+ − 0', 'zoom in a plot, and show all'], ['Ctrl Z', 'undo, in the editor'], ['Esc, Tab', 'leave the editor'], ['G', 'the gallery (outside the editor)']];
+  const keys = [['Ctrl S', t('save the netlist')], [t('Space'), t('play the run, or pause (outside the editor)')], ['P', t('present: question, schematic, plots and sliders on one screen, or back')], ['F', t('full screen')], ['E', t('the netlist, while presenting')],
+    ['R', t('all numbers as the scene was opened')], ['T', t('freeze the curves')], ['M', t('measure with two cursors')], ['H', t('hold the axes')], ['← →', t('turn the slider that has the focus; move in a plot')],
+    ['+ − 0', t('zoom in a plot, and show all')], ['Ctrl Z', t('undo, in the editor')], [t('Esc, Tab'), t('leave the editor')], ['G', t('the gallery (outside the editor)')]];
   const dialog = element('dialog', { class: 'help', 'aria-labelledby': 'help-title' },
-    element('div', { class: 'dialog-head' }, element('h2', { id: 'help-title' }, 'Help'), element('button', { type: 'button', onclick: () => dialog.close(), 'aria-label': 'Close' }, '✕')),
-    element('p', {}, 'Choose a netlist in the gallery. Turn a slider, or change the text: schematic and plots follow. Compare keeps the netlist as A and lets you change B. Freeze keeps the curves beside the next ones. A link carries the whole scene.'),
+    element('div', { class: 'dialog-head' }, element('h2', { id: 'help-title' }, t('Help')), element('button', { type: 'button', onclick: () => dialog.close(), 'aria-label': t('Close') }, '✕')),
+    element('p', {}, t('Choose a netlist in the gallery. Turn a slider, or change the text: schematic and plots follow. Compare keeps the netlist as A and lets you change B. Freeze keeps the curves beside the next ones. A link carries the whole scene.')),
     element('dl', {}, keys.map(([key, does]) => [element('dt', {}, element('kbd', {}, key)), element('dd', {}, does)])),
-    element('p', {}, element('a', { href: addressOfLicences(), target: '_blank' }, 'Licences'), ' of the software and the fonts in this page'));
+    element('p', {}, element('a', { href: addressOfLicences(), target: '_blank' }, t('Licences')), t(' of the software and the fonts in this page')));
   return dialog;
 }

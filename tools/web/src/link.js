@@ -1,30 +1,63 @@
-// A link that carries a scene: all of it stands behind the # of the address, which no server gets to see.
+// A link that carries a scene: all of it stands behind the # of the address, which no server gets to see. It is deflated with one of
+// two preset dictionaries, the texts of link-words, so that only what differs from them takes room. A link needs the dictionary that
+// it was made with for ever: these files never change; other words get another letter.
+import { deflateSync, Inflate } from 'fflate';
+import a from './link-words/a.txt';
+import b from './link-words/b.txt';
+import { t } from './messages.js';
 
-async function through(stream, bytes) {
-  const piped = new Blob([bytes]).stream().pipeThrough(stream);
-  return new Uint8Array(await new Response(piped).arrayBuffer());
-}
+const bytes = (text) => new TextEncoder().encode(text);
+const dictionaries = { a: bytes(a), b: bytes(b) };
+const between = '\0'; // a netlist cannot have it
 
-export async function encode(value) {
-  const packed = await through(new CompressionStream('deflate-raw'), new TextEncoder().encode(JSON.stringify(value)));
+function letters(packed) {
   let text = '';
   for (const byte of packed) text += String.fromCharCode(byte);
   return btoa(text).replaceAll('+', '-').replaceAll('/', '_').replace(/=+$/, '');
 }
 
 const most = 4 << 20; // bytes of a scene: a small link may unpack to much
+const piece = 1 << 10; // bytes of a link, which unpack to 1 MB at most
 
-export async function decode(text) {
-  const bytes = Uint8Array.from(atob(text.replaceAll('-', '+').replaceAll('_', '/')), (c) => c.charCodeAt(0));
-  const reader = new Blob([bytes]).stream().pipeThrough(new DecompressionStream('deflate-raw')).getReader();
+function inflated(text, dictionary) {
+  const packed = Uint8Array.from(atob(text.replaceAll('-', '+').replaceAll('_', '/')), (c) => c.charCodeAt(0));
   const pieces = [];
   let size = 0;
-  for (;;) {
-    const { value, done } = await reader.read();
-    if (done) break;
-    size += value.length;
-    if (size > most) throw new Error('the link holds too much');
-    pieces.push(value);
+  let isComplete = false;
+  const stream = new Inflate({ dictionary }, (data, final) => {
+    pieces.push(data);
+    size += data.length;
+    isComplete = final;
+  });
+  for (let at = 0; at < packed.length && size <= most; at += piece) stream.push(packed.subarray(at, at + piece), at + piece >= packed.length);
+  if (size > most) throw new Error(t('the link holds too much'));
+  if (!isComplete) throw new Error(t('the link ends too early'));
+  const whole = new Uint8Array(size);
+  let filled = 0;
+  for (const data of pieces) {
+    whole.set(data, filled);
+    filled += data.length;
   }
-  return JSON.parse(await new Blob(pieces).text());
+  return new TextDecoder('utf-8', { fatal: true }).decode(whole);
+}
+
+// What stands behind the #: scenes, and which plots are shown of them.
+export function encode({ scenes, plots }) {
+  const isChosen = Object.values(plots).some((value) => value !== null);
+  const content = bytes([isChosen ? JSON.stringify(plots) : '', ...scenes.flatMap(({ file, text }) => [file, text])].join(between));
+  const all = Object.entries(dictionaries).map(([letter, dictionary]) => `s=${letter}${letters(deflateSync(content, { level: 9, mem: 12, dictionary }))}`);
+  return all.sort((one, other) => one.length - other.length)[0];
+}
+
+// `kind` and `value` are what stands before and behind the first = of the address. Links of the kind `scene` are from before
+// there were dictionaries.
+export function decode(kind, value) {
+  if (kind === 'scene') return JSON.parse(inflated(value));
+  const dictionary = dictionaries[value[0]];
+  if (!dictionary) throw new Error(t('the link is of a newer version'));
+  const [plots, ...parts] = inflated(value.slice(1), dictionary).split(between);
+  if (parts.length < 2 || parts.length % 2 !== 0) throw new Error(t('the link lacks a part'));
+  const scenes = [];
+  for (let k = 0; k < parts.length; k += 2) scenes.push({ file: parts[k], text: parts[k + 1] });
+  return { scenes, plots: plots ? JSON.parse(plots) : {} };
 }

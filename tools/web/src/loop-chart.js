@@ -3,6 +3,7 @@ import uPlot from 'uplot';
 import { apart, axis, borders, Chart, colour, dashes, labelOf, read, shownOf, sideways } from './chart.js';
 import { element } from './dom.js';
 import { listenToFingers } from './gestures.js';
+import { t } from './messages.js';
 import { alongDecades, largestOf, number, shownIn, timeShown } from './units.js';
 
 // Where a logarithmic axis has its numbers. uPlot's own choice never ends on some ranges that do not begin at a power of ten.
@@ -24,7 +25,7 @@ export class LoopChart extends Chart {
     host.classList.add('chart', 'loop');
     host.tabIndex = 0;
     host.setAttribute('role', 'group');
-    host.setAttribute('aria-label', `${y.quantity} against ${x.quantity}: ${curves.map((curve) => curve.name).join(', ')}`);
+    host.setAttribute('aria-label', t('{y} against {x}: {names}', { y: y.quantity, x: x.quantity, names: curves.map((curve) => curve.name).join(', ') }));
     const log = Boolean(x.log);
     this.sides = [x, y];
     this.curves = curves;

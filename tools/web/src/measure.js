@@ -1,5 +1,6 @@
 // Two cursors in plots over time: what the curves are at each, how far they are apart, and their period and peak between them.
 import { element, table } from './dom.js';
+import { t } from './messages.js';
 import { number, spaced } from './units.js';
 
 const names = ['1', '2'];
@@ -45,7 +46,7 @@ export class Measure {
     this.charts = charts;
     this.isOn = false;
     this.times = null;
-    this.button = element('button', { type: 'button', class: 'measure', 'aria-pressed': 'false', onclick: () => this.toggle(), title: 'Two cursors (M)' }, 'Measure');
+    this.button = element('button', { type: 'button', class: 'measure', 'aria-pressed': 'false', onclick: () => this.toggle(), title: t('Two cursors (M)') }, t('Measure'));
     this.host = element('div', { class: 'measured', hidden: true });
   }
 
@@ -74,7 +75,7 @@ export class Measure {
     if (isFirst) {
       line.tabIndex = 0;
       line.setAttribute('role', 'slider');
-      line.setAttribute('aria-label', `Cursor ${name}`);
+      line.setAttribute('aria-label', t('Cursor {name}', { name }));
       line.addEventListener('keydown', (event) => this.key(event, which, chart));
     }
     line.addEventListener('pointerdown', (event) => {
@@ -136,12 +137,12 @@ export class Measure {
       const found = between(curve.time, curve.values, from, to);
       const scale = found ? Math.max(Math.abs(found.highest[1]), Math.abs(found.lowest[1])) : 0;
       const said = (value) => (Number.isNaN(value) ? '–' : `${scale > 0 ? spaced(value / shown.factor, scale / shown.factor / 1e3, 3) : '0'} ${shown.name}`.trim());
-      return [curve.name, ...values.map(said), said(values[1] - values[0]), found ? `${said(found.highest[1])} at ${time(found.highest[0], 4)}` : '–',
-        found ? `${said(found.lowest[1])} at ${time(found.lowest[0], 4)}` : '–', found ? time(found.period, 4) : '–'];
+      return [curve.name, ...values.map(said), said(values[1] - values[0]), found ? `${said(found.highest[1])} ${t('at {time}', { time: time(found.highest[0], 4) })}` : '–',
+        found ? `${said(found.lowest[1])} ${t('at {time}', { time: time(found.lowest[0], 4) })}` : '–', found ? time(found.period, 4) : '–'];
     }));
     const opened = this.host.querySelector('.scroll')?.scrollLeft ?? 0;
-    const all = table(['record', `at ${time(this.times[0])}`, `at ${time(this.times[1])}`, 'difference', 'highest between', 'lowest between', 'period'], rows, 'Measured');
-    this.host.replaceChildren(element('p', { class: 'apart' }, `Cursors ${number(span, 5)} ${name} apart${span > 0 ? `, ${number(1 / (to - from), 4)} Hz` : ''}`), all);
+    const all = table([t('record'), t('at {time}', { time: time(this.times[0]) }), t('at {time}', { time: time(this.times[1]) }), t('difference'), t('highest between'), t('lowest between'), t('period')], rows, t('Measured'));
+    this.host.replaceChildren(element('p', { class: 'apart' }, span > 0 ? t('Cursors {span} apart, {frequency} Hz', { span: `${number(span, 5)} ${name}`, frequency: number(1 / (to - from), 4) }) : t('Cursors {span} apart', { span: `0 ${name}` })), all);
     all.scrollLeft = opened;
   }
 }

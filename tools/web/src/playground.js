@@ -1,10 +1,10 @@
 // The playground: a netlist in an editor, its schematic, its sliders and its plots, which follow each other.
+import { language } from './language.js'; // first: the modules below have texts
 import './style.css';
 import './playground.css';
 import './motion.css';
 import './presentation.css';
 import { Animation } from './animation.js';
-import { explain } from './api.js';
 import { element, schematicOf } from './dom.js';
 import { Editor } from './editor.js';
 import { choices } from './choices.js';
@@ -14,7 +14,10 @@ import { firstScene } from './first-scene.js';
 import { Folds } from './folds.js';
 import { helpDialog } from './help.js';
 import { listenToKeys } from './keys.js';
+import { languageChoice } from './language-choice.js';
+import { Lesson } from './lesson.js';
 import { menu } from './menu.js';
+import { t } from './messages.js';
 import { PlotPanel } from './plot-panel.js';
 import { Presentation } from './presentation.js';
 import { Runner } from './runner.js';
@@ -41,13 +44,19 @@ class Playground {
     this.sliders = new Sliders(this.parts.sliders, this.editor);
     this.traces = new Traces(() => this.showPlots());
     this.plots = new PlotPanel(this.parts.plots, { onchange: () => this.showSections(), fits: true, traces: this.traces });
-    this.folds = new Folds(this.parts.sections, () => this.explain());
+    this.folds = new Folds(this.parts.sections, () => this.request());
     this.animation = new Animation(this.parts.animation, { onframe: (time) => this.plots.mark(time) });
+    this.course = new Lesson(this.lesson, {
+      sliders: this.sliders, language,
+      others: () => this.files.lessons(),
+      onopen: (file) => this.files.openFile(file, true, true),
+      onleave: (file) => this.files.openFile(file, true),
+    });
     const { presentation } = this;
     listenToKeys({
       save: () => this.files.save(),
       acts: {
-        ' ': () => this.animation.toggle(),
+        ' ': () => this.course.isConcealing || this.animation.toggle(),
         g: () => this.files.gallery.open(),
         p: () => presentation.toggle(),
         f: () => presentation.toggleScreen(),
@@ -79,28 +88,28 @@ class Playground {
     this.parts = {};
     this.title = element('h1', {}, 'rheonet');
     this.presentation = new Presentation({ onchange: (on) => this.present(on) });
-    this.compareButton = button('Compare', () => this.compare(), { 'aria-pressed': 'false' });
+    this.compareButton = button(t('Compare'), () => this.compare(), { 'aria-pressed': 'false' });
     this.status = element('p', { class: 'status', role: 'status' });
-    this.themeButton = button('◐', switchTheme, { 'aria-label': 'Light or dark', title: 'Light or dark' });
-    const bar = element('header', { class: 'bar' }, this.title, element('nav', { class: 'actions', 'aria-label': 'Actions' },
-      button('Gallery', () => this.files.gallery.open()),
-      menu('Save', () => this.files.saves()),
-      menu('Export', () => this.files.exports()),
-      button('Link', () => this.files.copyLink()),
-      this.compareButton, ...this.presentation.buttons, this.themeButton,
-      button('?', () => this.help.showModal(), { 'aria-label': 'Help' })));
-    this.choice = element('div', { class: 'variants', role: 'radiogroup', 'aria-label': 'Variant that is edited', hidden: true });
+    this.themeButton = button('◐', switchTheme, { 'aria-label': t('Light or dark'), title: t('Light or dark') });
+    const bar = element('header', { class: 'bar' }, this.title, element('nav', { class: 'actions', 'aria-label': t('Actions') },
+      button(t('Gallery'), () => this.files.gallery.open()),
+      menu(t('Save'), () => this.files.saves()),
+      menu(t('Export'), () => this.files.exports()),
+      button(t('Link'), () => this.files.copyLink()),
+      this.compareButton, ...this.presentation.buttons, languageChoice(), this.themeButton,
+      button('?', () => this.help.showModal(), { 'aria-label': t('Help') })));
+    this.choice = element('div', { class: 'variants', role: 'radiogroup', 'aria-label': t('Variant that is edited'), hidden: true });
     const box = (name, heading, ...content) => element('section', { class: `box ${name}-box`, 'aria-label': heading }, element('h2', { class: 'box-title' }, heading), ...content);
     host.append(bar, element('main', { class: 'desk' },
-      box('editor', 'Netlist', this.choice, part('editor'), part('mistakes')),
+      box('editor', t('Netlist'), this.choice, part('editor'), part('mistakes')),
       // Before the stage: that is the order of the Tab key.
-      box('sliders', 'Sliders', part('sliders')),
+      box('sliders', t('Sliders'), part('sliders')),
       element('div', { class: 'stage' },
         element('div', { class: 'view' },
-          (this.lesson = box('lesson', 'Question')),
-          box('schematic', 'Schematic', part('drawing'), part('animation')),
-          box('plots', 'Plots', this.status, part('plots'))),
-        box('more', 'More', part('sections')))));
+          (this.lesson = box('lesson', t('Question'))),
+          box('schematic', t('Schematic'), part('drawing'), part('animation')),
+          box('plots', t('Plots'), this.status, part('plots'))),
+        box('more', t('More'), part('sections')))));
     this.view = new DrawingView(this.parts.drawing);
     this.parts.drawing.before(this.view.controls);
     new ResizeObserver(() => document.body.style.setProperty('--bar', `${bar.offsetHeight}px`)).observe(bar);
@@ -121,7 +130,7 @@ class Playground {
   // Part of a page of somebody else: of the tools only a way to the whole playground remains.
   embed(bar) {
     document.body.classList.add('embedded');
-    const link = element('a', { target: '_blank' }, 'Open in the playground');
+    const link = element('a', { target: '_blank' }, t('Open in the playground'));
     const follow = () => (link.href = `${location.origin === 'null' ? 'file://' : location.origin}${location.pathname}${location.hash}`);
     for (const event of ['hashchange', 'popstate']) addEventListener(event, follow);
     follow();
@@ -129,8 +138,9 @@ class Playground {
   }
 
   // Puts other scenes, one or two to compare, in the place of those that are there.
-  begin({ scenes, active = scenes.length - 1, plots = {} }, notice = '') {
+  begin({ scenes, active = scenes.length - 1, plots = {}, lesson = false }, notice = '') {
     this.endComparison();
+    this.course.end();
     this.traces.clear();
     this.plots.state = plots ?? {};
     if (notice) this.notify(notice);
@@ -138,6 +148,7 @@ class Playground {
     this.active = scenes[active] ? active : 0;
     this.showChoice();
     scenes.forEach((scene, k) => this.load(k, scene));
+    if (lesson) this.course.begin(scenes[0]);
   }
 
   // Texts and runs.
@@ -146,6 +157,7 @@ class Playground {
   load(k, { text, file, version = '', opened = text }) {
     const variant = this.variants[k];
     Object.assign(variant, { text, file, version, opened, answered: null, fresh: true });
+    this.folds.stop();
     if (k === this.active) {
       this.editor.load(text);
       this.clear();
@@ -177,6 +189,7 @@ class Playground {
     const variant = this.current;
     variant.text = text;
     this.showBusy();
+    this.folds.stop();
     this.files.changed();
     clearTimeout(this.typing);
     if (typed) this.typing = setTimeout(() => variant.runner.run(text, variant.file), typing);
@@ -191,7 +204,7 @@ class Playground {
     if (!data.scene) {
       variant.stale = true;
       this.showStale();
-      if (complete) this.say(data.failed ? data.failed.message : `The netlist has mistakes${variant.data.hasCurves ? '; the plots show what was there before' : ''}.`, true);
+      if (complete) this.say(data.failed ? data.failed.message : variant.data.hasCurves ? t('The netlist has mistakes; the plots show what was there before.') : t('The netlist has mistakes.'), true);
       return;
     }
     if (data.time.length || complete) Object.assign(variant, { data, shown: text });
@@ -207,7 +220,7 @@ class Playground {
     this.later = setTimeout(() => this.showSections(), 200);
     if (data.failed) {
       // Where there are no curves the reason stands in their place.
-      this.say(data.hasCurves ? `The run did not come to its end: ${data.failed.message}` : 'The run did not come to its end.', true);
+      this.say(data.hasCurves ? t('The run did not come to its end: {why}', { why: data.failed.message }) : t('The run did not come to its end.'), true);
       return;
     }
     requestAnimationFrame(() => {
@@ -218,7 +231,7 @@ class Playground {
         this.notice = null;
         return;
       }
-      this.say(`${data.done.statistics.steps} steps, ${runTime(data.done.statistics)}; drawn ${Math.round(took)} ms after the change`);
+      this.say(t('{steps} steps, {time}; drawn {took} ms after the change', { steps: data.done.statistics.steps, time: runTime(data.done.statistics), took: Math.round(took) }));
     });
   }
 
@@ -250,6 +263,7 @@ class Playground {
     this.showLesson(scene);
     this.showSchematic(scene);
     this.animation.attach(this.parts.drawing.querySelector('svg'), data);
+    this.course.take(data);
   }
 
   showTitle(title) {
@@ -268,7 +282,7 @@ class Playground {
     const words = JSON.stringify(scene.demo ?? null);
     if (words === this.words) return;
     this.words = words;
-    this.lesson.hidden = !scene.demo;
+    this.lesson.hidden = !scene.demo && !this.course.isOn;
     this.lesson.querySelector('.lesson')?.remove();
     if (scene.demo) this.lesson.append(lessonOf(scene, true));
   }
@@ -276,7 +290,7 @@ class Playground {
   showPlots() {
     const several = this.variants.length > 1;
     this.traces.offer(this.current);
-    const now = this.variants.map(({ label, data, text, shown, file }) => ({ label: several ? label : this.traces.all.length ? 'now' : '', data, text: shown ?? text, file }));
+    const now = this.variants.map(({ label, data, text, shown, file }) => ({ label: several ? label : this.traces.all.length ? t('now') : '', data, text: shown ?? text, file }));
     this.plots.show([...now, ...this.traces.all]);
   }
 
@@ -297,9 +311,9 @@ class Playground {
         element('b', {}, line ? `${line}:${column} ` : ''), message, hint ? element('span', { class: 'hint' }, ` – ${hint}`) : null)));
   }
 
-  explain() {
+  request() {
     const { text, file, runner } = this.current;
-    return explain({ text, file, session: `${runner.session}-why` });
+    return { text, file, session: runner.session };
   }
 
   showSections() {
@@ -352,7 +366,7 @@ class Playground {
     const several = this.variants.length > 1;
     this.choice.hidden = !several;
     this.compareButton.setAttribute('aria-pressed', String(several));
-    this.compareButton.textContent = several ? 'End comparison' : 'Compare';
+    this.compareButton.textContent = several ? t('End comparison') : t('Compare');
     this.choice.replaceChildren(...choices(several ? this.variants : [], this.active, (k) => {
       this.edit(k);
       this.choice.querySelectorAll('input')[k].focus();

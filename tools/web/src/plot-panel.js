@@ -3,15 +3,16 @@ import { colourInPrint, dashes } from './chart.js';
 import { element, freshId } from './dom.js';
 import { LoopChart } from './loop-chart.js';
 import { Measure } from './measure.js';
+import { t } from './messages.js';
 import { inWords } from './sections.js';
 import { TimeChart, TimeGroup } from './time-chart.js';
 
 const kinds = [
-  { id: 'own', label: 'As the scene says' },
-  { id: 'time', label: 'Over time' },
-  { id: 'loop', label: 'Force against displacement', x: 'displacement', y: 'force' },
-  { id: 'flow', label: 'Force against velocity', x: 'velocity', y: 'force' },
-  { id: 'phase', label: 'Phase plane', x: 'position', y: 'velocity' },
+  { id: 'own', label: t('As the scene says') },
+  { id: 'time', label: t('Over time') },
+  { id: 'loop', label: t('Force against displacement'), x: 'displacement', y: 'force' },
+  { id: 'flow', label: t('Force against velocity'), x: 'velocity', y: 'force' },
+  { id: 'phase', label: t('Phase plane'), x: 'position', y: 'velocity' },
 ];
 const leastHeight = 125; // px of a chart that is to be read
 const few = { curves: 4, panels: 3, all: 8 }; // that are shown before anyone chooses: of one quantity, panels, and curves in all
@@ -28,7 +29,7 @@ export class PlotPanel {
     this.isHeld = false;
     this.first = 0; // panel that is shown, where there is no room for all
     this.measure = new Measure(() => this.charts.filter((chart) => chart instanceof TimeChart));
-    this.holdButton = element('button', { type: 'button', class: 'hold', 'aria-pressed': 'false', onclick: () => this.hold(!this.isHeld), title: 'The vertical axes stay as they are (H)' }, 'Hold axes');
+    this.holdButton = element('button', { type: 'button', class: 'hold', 'aria-pressed': 'false', onclick: () => this.hold(!this.isHeld), title: t('The vertical axes stay as they are (H)') }, t('Hold axes'));
     this.nextButton = element('button', { type: 'button', class: 'next-plot', hidden: true, onclick: () => this.showNext() });
     this.kind = null; // nobody has chosen
     this.owner = null;
@@ -37,7 +38,7 @@ export class PlotPanel {
     this.runs = [];
     this.failures = []; // runs of which there is nothing to draw
     this.shape = '';
-    this.tabs = element('div', { class: 'tabs', role: 'radiogroup', 'aria-label': 'Kind of plot', hidden: true });
+    this.tabs = element('div', { class: 'tabs', role: 'radiogroup', 'aria-label': t('Kind of plot'), hidden: true });
     this.tools = element('div', { class: 'plot-tools' });
     this.body = element('div', { class: 'plots' });
     document.addEventListener('pointerdown', (event) => {
@@ -95,7 +96,7 @@ export class PlotPanel {
     const shown = hosts.map((_, k) => k >= this.first && k < this.first + count);
     hosts.forEach((host, k) => (host.hidden = !shown[k]));
     this.nextButton.hidden = count === hosts.length;
-    this.nextButton.textContent = `Other plots (${hosts.length - count})`;
+    this.nextButton.textContent = t('Other plots ({count})', { count: hosts.length - count });
     const free = room - beside.reduce((sum, height, k) => sum + (shown[k] ? height : 0), 0);
     this.charts.forEach((chart, k) => shown[k] && chart.setHeight(Math.max(60, Math.floor(free / count) - 1)));
     this.measure.show();
@@ -141,7 +142,7 @@ export class PlotPanel {
     this.body.replaceChildren();
     this.tools.replaceChildren();
     this.body.append(...this.failures.map(({ label, data }) => element('p', { class: 'note bad no-curves' },
-      `${label ? `${label}: there` : 'There'} is nothing to draw${data.failed.limit ? ' so far' : ', as the run does not get beyond its start'}. `, inWords(sentence(data.failed.message)))));
+      `${label ? `${label}: ` : ''}${data.failed.limit ? t('There is nothing to draw so far.') : t('There is nothing to draw, as the run does not get beyond its start.')} `, inWords(sentence(data.failed.message)))));
     if (!this.runs.length) return;
     const kind = kinds.find((known) => known.id === this.shownKind);
     if (kind.id === 'time') this.buildTime();
@@ -181,7 +182,7 @@ export class PlotPanel {
         const key = JSON.stringify([across, up]);
         if (!panels.has(key)) panels.set(key, { x: across, y: up, curves: [] });
         const panel = panels.get(key);
-        const name = this.ownCurves().every(([other]) => other === x) ? y : `${y} against ${x}`;
+        const name = this.ownCurves().every(([other]) => other === x) ? y : t('{y} against {x}', { y, x });
         panel.curves.push({ name: label ? `${label} ${name}` : name, time: data.time, x: data.column(x), y: data.column(y), ...this.look(run, style), paths: [x, y], run, data });
       });
     });
@@ -255,7 +256,7 @@ export class PlotPanel {
       this.charts.push(new TimeChart(host, this.group, { quantity, unit, as, curves, events: this.eventTimes(),
         height: panels.length > 1 ? 200 : 260, labelled: k === panels.length - 1 }));
     });
-    if (!panels.length) this.body.append(element('p', { class: 'note' }, 'Choose what is to be shown.'));
+    if (!panels.length) this.body.append(element('p', { class: 'note' }, t('Choose what is to be shown.')));
     this.tools.append(this.chooser());
   }
 
@@ -265,7 +266,7 @@ export class PlotPanel {
     for (const { data } of this.runs) data.records.forEach((record) => all.set(record.path, record));
     const boxes = element('div', { class: 'boxes' });
     const chosen = [...shown].filter((path) => all.has(path)).length;
-    const count = element('span', {}, `Records (${chosen} of ${all.size})`);
+    const count = element('span', {}, t('Records ({shown} of {all})', { shown: chosen, all: all.size }));
     for (const [path, record] of all) {
       const box = element('input', { type: 'checkbox', checked: shown.has(path) });
       box.addEventListener('change', () => {
@@ -278,7 +279,7 @@ export class PlotPanel {
       });
       boxes.append(element('label', { title: `${record.quantity} [${record.unit}]`, 'data-path': path }, box, ` ${path}`));
     }
-    const find = element('input', { type: 'search', placeholder: 'find', 'aria-label': 'Find records' });
+    const find = element('input', { type: 'search', placeholder: t('find'), 'aria-label': t('Find records') });
     find.addEventListener('input', () => {
       for (const label of boxes.children) label.hidden = !label.dataset.path.includes(find.value.trim());
     });
@@ -299,7 +300,7 @@ export class PlotPanel {
   ownRecordsButton(shown) {
     const own = [...new Set(this.runs.flatMap(({ data }) => data.records.slice(0, data.scene.own_records).map(({ path }) => path)))];
     if (own.every((path) => shown.has(path))) return null;
-    return element('button', { type: 'button', class: 'all-own', onclick: () => this.choose({ chosen: new Set([...shown, ...own]) }) }, `All ${own.length} that the scene records`);
+    return element('button', { type: 'button', class: 'all-own', onclick: () => this.choose({ chosen: new Set([...shown, ...own]) }) }, t('All {count} that the scene records', { count: own.length }));
   }
 
   loopCurves(kind) {
@@ -316,11 +317,11 @@ export class PlotPanel {
   buildLoop(kind) {
     const owners = [...new Set(this.runs.flatMap(({ data }) => data.ownersOf(kind.x, kind.y)))];
     if (!owners.length) {
-      this.body.append(element('p', { class: 'note' }, `The run has no ${kind.x} and ${kind.y} of one element to draw against each other.`));
+      this.body.append(element('p', { class: 'note' }, t('The run has no {x} and {y} of one element to draw against each other.', { x: kind.x, y: kind.y })));
       return;
     }
     this.loopOwner = owners.includes(this.owner) ? this.owner : owners[0];
-    const select = element('select', { 'aria-label': 'Whose' }, owners.map((owner) => element('option', { value: owner, selected: owner === this.loopOwner }, owner)));
+    const select = element('select', { 'aria-label': t('Whose') }, owners.map((owner) => element('option', { value: owner, selected: owner === this.loopOwner }, owner)));
     select.addEventListener('change', () => this.choose({ owner: select.value }));
     this.tools.append(select);
     const record = (channel) => {

@@ -1,15 +1,16 @@
 // For a room or a class: the question, a large schematic, the plots and the sliders that matter on one screen. The netlist is one
 // click away.
 import { element } from './dom.js';
+import { t } from './messages.js';
 
 export class Presentation {
   // onchange(on): the page has another layout.
   constructor({ onchange }) {
     this.onchange = onchange;
     const button = (text, label, act, extra = {}) => element('button', { type: 'button', onclick: act, 'aria-pressed': 'false', title: label, ...extra }, text);
-    this.presentButton = button('Present', 'Question, schematic, plots and sliders on one screen (P)', () => this.toggle(), { class: 'present' });
-    this.netlistButton = button('Netlist', 'The netlist, over the page (E)', () => this.toggleNetlist(), { class: 'only-presenting' });
-    this.screenButton = button('⤢', 'Full screen (F)', () => this.toggleScreen(), { 'aria-label': 'Full screen' });
+    this.presentButton = button(t('Present'), t('Question, schematic, plots and sliders on one screen (P)'), () => this.toggle(), { class: 'present' });
+    this.netlistButton = button(t('Netlist'), t('The netlist, over the page (E)'), () => this.toggleNetlist(), { class: 'only-presenting' });
+    this.screenButton = button('⤢', t('Full screen (F)'), () => this.toggleScreen(), { 'aria-label': t('Full screen') });
     this.buttons = [this.netlistButton, this.presentButton, ...(document.fullscreenEnabled ? [this.screenButton] : [])];
     document.addEventListener('fullscreenchange', () => this.screenButton.setAttribute('aria-pressed', String(Boolean(document.fullscreenElement))));
   }
@@ -23,8 +24,8 @@ export class Presentation {
     document.body.classList.remove('netlist-open');
     this.netlistButton.setAttribute('aria-pressed', 'false');
     this.presentButton.setAttribute('aria-pressed', String(on));
-    this.presentButton.textContent = on ? 'End' : 'Present';
-    this.presentButton.title = on ? 'Back to all of the page (P)' : 'Question, schematic, plots and sliders on one screen (P)';
+    this.presentButton.textContent = on ? t('End') : t('Present');
+    this.presentButton.title = on ? t('Back to all of the page (P)') : t('Question, schematic, plots and sliders on one screen (P)');
     scrollTo(0, 0);
     this.onchange(on);
   }

@@ -1,19 +1,20 @@
 // Saves a netlist in the folder, and asks before another one would be lost.
 import { save } from './api.js';
 import { element } from './dom.js';
+import { t } from './messages.js';
 
 export class SaveDialog {
   // onsaved({ file, version, text }): it is there.
   constructor({ onsaved }) {
     this.onsaved = onsaved;
-    this.name = element('input', { type: 'text', 'aria-label': 'Name of the netlist in the folder', spellcheck: 'false', autocomplete: 'off' });
+    this.name = element('input', { type: 'text', 'aria-label': t('Name of the netlist in the folder'), spellcheck: 'false', autocomplete: 'off' });
     this.why = element('output', { class: 'why', hidden: true });
-    this.over = element('button', { type: 'button', class: 'overwrite', hidden: true, onclick: () => this.put(this.there) }, 'Overwrite it');
+    this.over = element('button', { type: 'button', class: 'overwrite', hidden: true, onclick: () => this.put(this.there) }, t('Overwrite it'));
     const form = element('form', {}, this.name, this.why,
-      element('div', { class: 'dialog-foot' }, element('button', { type: 'button', onclick: () => this.dialog.close() }, 'Cancel'),
-        this.over, (this.done = element('button', { type: 'submit' }, 'Save'))));
+      element('div', { class: 'dialog-foot' }, element('button', { type: 'button', onclick: () => this.dialog.close() }, t('Cancel')),
+        this.over, (this.done = element('button', { type: 'submit' }, t('Save')))));
     this.dialog = element('dialog', { class: 'save', 'aria-labelledby': 'save-title' },
-      element('div', { class: 'dialog-head' }, element('h2', { id: 'save-title' }, 'Save in the folder')), form);
+      element('div', { class: 'dialog-head' }, element('h2', { id: 'save-title' }, t('Save in the folder'))), form);
     form.addEventListener('submit', (event) => {
       event.preventDefault();
       this.put(this.file === this.netlist.file ? this.netlist.version : '');
@@ -67,7 +68,7 @@ export class SaveDialog {
     this.there = there;
     this.over.hidden = !there;
     this.why.hidden = !why;
-    this.why.textContent = why && `Not saved: ${why}.${there ? ' Overwrite it, or give another name.' : ''}`;
+    this.why.textContent = why && `${t('Not saved: {why}.', { why })}${there ? ` ${t('Overwrite it, or give another name.')}` : ''}`;
     this.name.toggleAttribute('aria-invalid', Boolean(why));
   }
 

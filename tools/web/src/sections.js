@@ -2,7 +2,8 @@
 import katex from 'katex';
 import { element, table } from './dom.js';
 import { typeset, withUnits } from './formulas.js';
-import { LoopChart } from './loop-chart.js';
+import { t } from './messages.js';
+import { priceChart } from './prices.js';
 import { TimeChart, TimeGroup } from './time-chart.js';
 import { grouped, number, runTime, spaced, timeShown, withUnit } from './units.js';
 
@@ -15,14 +16,14 @@ export function lessonOf({ demo }, folded) {
   const answer = (name, text) => (folded ? element('details', {}, element('summary', {}, name), element('p', {}, inWords(text))) : element('p', {}, element('b', {}, `${name} `), inWords(text)));
   return element('div', { class: 'lesson' },
     element('p', { class: 'question' }, inWords(demo.question)),
-    element('p', {}, element('b', {}, 'Change '), inWords(demo.change)),
-    answer('See', demo.see),
-    answer('Why', demo.why));
+    element('p', {}, element('b', {}, `${t('Change')} `), inWords(demo.change)),
+    answer(t('See'), demo.see),
+    answer(t('Why'), demo.why));
 }
 
 // What `rheonet explain` says; names and options in it are set as such.
 export function explanationOf({ passages, why_not: whyNot }) {
-  if (whyNot) return element('p', { class: 'note bad' }, `It cannot be simulated: ${whyNot}`);
+  if (whyNot) return element('p', { class: 'note bad' }, t('It cannot be simulated: {why}', { why: whyNot }));
   return element('div', { class: 'explanation' }, passages.map(({ heading, lines }) =>
     element('section', {},
       element('h4', {}, heading),
@@ -32,7 +33,7 @@ export function explanationOf({ passages, why_not: whyNot }) {
 export function equationsOf(scene) {
   const list = element('div', { class: 'equations' });
   for (const { type, tex, law, summary, notes, source, symbols } of scene.equations) {
-    const equation = element('div', { class: 'equation', tabindex: '0', role: 'group', 'aria-label': `Law of ${type}` });
+    const equation = element('div', { class: 'equation', tabindex: '0', role: 'group', 'aria-label': t('Law of {type}', { type }) });
     if (tex) katex.render(tex, equation, { displayMode: true, throwOnError: false, output: 'htmlAndMathml' });
     else equation.append(element('code', {}, law));
     list.append(
@@ -49,9 +50,9 @@ export function equationsOf(scene) {
 
 export function elementsOf(scene) {
   const rows = scene.elements.map(({ name, type, place, values }) => [element('code', {}, name), type, place, withUnits(values.replace(/ {2,}/g, ', '))]);
-  const all = table(['element', 'type', 'between', 'values (SI)'], rows, 'Elements');
+  const all = table([t('element'), t('type'), t('between'), t('values (SI)')], rows, t('Elements'));
   if (scene.element_count > scene.elements.length)
-    all.append(element('p', { class: 'note' }, `and ${grouped(scene.element_count - scene.elements.length)} more`));
+    all.append(element('p', { class: 'note' }, t('and {count} more', { count: grouped(scene.element_count - scene.elements.length) })));
   return all;
 }
 
@@ -69,9 +70,9 @@ export function energyOf(data, charts = []) {
   const curve = (name, values) => ({ name, time, values });
   queueMicrotask(() => {
     charts.push(new TimeChart(host, new TimeGroup(), {
-      quantity: 'energy',
+      quantity: t('energy'),
       unit: 'J',
-      curves: [curve('supplied', supplied), curve('stored', stored), curve('dissipated', dissipated), curve('missing', missing)],
+      curves: [curve(t('supplied'), supplied), curve(t('stored'), stored), curve(t('dissipated'), dissipated), curve(t('missing'), missing)],
     }));
   });
   return host;
@@ -80,7 +81,7 @@ export function energyOf(data, charts = []) {
 const lanes = 12;
 export function eventsOf(data) {
   const { items, left_out } = data.events;
-  if (!items.length) return element('p', { class: 'note' }, 'Nothing switched.');
+  if (!items.length) return element('p', { class: 'note' }, t('Nothing switched.'));
   const { start, stop } = data.scene;
   const names = [...new Set(items.map((item) => item[1]))];
   const shown = names.slice(0, lanes);
@@ -102,7 +103,7 @@ export function eventsOf(data) {
     return `<path class="lane" d="M${x(time)} ${axisY - 4}v6"/><text x="${x(time)}" y="${axisY + 16}" text-anchor="middle">${spaced(time / unit.factor, (stop - start) / 4 / unit.factor)} ${unit.name}</text>`;
   });
   const host = element('div', { class: 'events' });
-  host.innerHTML = `<div class="lanes" tabindex="0" role="group" aria-label="Events over time"><svg viewBox="0 0 ${width} ${height}" role="img" aria-label="Events over time">${parts.join('')}${marks.join('')}</svg></div>`;
+  host.innerHTML = `<div class="lanes" tabindex="0" role="group" aria-label="${escape(t('Events over time'))}"><svg viewBox="0 0 ${width} ${height}" role="img" aria-label="${escape(t('Events over time'))}">${parts.join('')}${marks.join('')}</svg></div>`;
   host.append(element('p', { class: 'loop-legend' }, kinds.map((kind, k) => {
     const swatch = element('span', { class: 'swatch' });
     swatch.style.background = `var(--curve-${(k % 7) + 1})`;
@@ -110,10 +111,10 @@ export function eventsOf(data) {
   })));
   const most = 200;
   const rows = items.slice(0, most).map(([time, name, what, direction]) => [number(time / unit.factor, 8), name, what, String(direction)]);
-  host.append(element('details', {}, element('summary', {}, `All ${grouped(items.length + left_out)} events`),
-    table([`time [${unit.name}]`, 'element', 'event', 'direction'], rows, 'Events'),
-    items.length + left_out > most ? element('p', { class: 'note' }, `and ${grouped(items.length + left_out - most)} more; \`rheonet run --events\` lists all`) : null));
-  if (names.length > lanes) host.append(element('p', { class: 'note' }, `${names.length - lanes} other elements switch too.`));
+  host.append(element('details', {}, element('summary', {}, t('All {count} events', { count: grouped(items.length + left_out) })),
+    table([`${t('time')} [${unit.name}]`, t('element'), t('event'), t('direction')], rows, t('Events')),
+    items.length + left_out > most ? element('p', { class: 'note' }, t('and {count} more; `rheonet run --events` lists all', { count: grouped(items.length + left_out - most) })) : null));
+  if (names.length > lanes) host.append(element('p', { class: 'note' }, t('{count} other elements switch too.', { count: names.length - lanes })));
   return host;
 }
 
@@ -123,32 +124,32 @@ function escape(text) {
 
 export function statisticsOf(data) {
   const s = data.done.statistics;
-  const share = s.largest > 0 ? ` (${Math.abs(s.missing / s.largest).toExponential(1)} of the largest energy in the run)` : '';
-  const switched = s.switched.slice(0, 4).map(([name, times]) => `${grouped(times)} of ${name}`).join(', ');
+  const share = s.largest > 0 ? ` (${t('{part} of the largest energy in the run', { part: Math.abs(s.missing / s.largest).toExponential(1) })})` : '';
+  const switched = s.switched.slice(0, 4).map(([name, times]) => t('{count} of {name}', { count: grouped(times), name })).join(', ');
   return table(['', ''], [
-    ['unknowns', `${grouped(s.unknowns)}, ${s.unknowns === 0 ? 'every motion is prescribed' : s.sparse ? 'sparse linear algebra' : 'dense linear algebra'}`],
-    ['steps', `${grouped(s.steps)}, ${grouped(s.rejected)} rejected`],
-    ['evaluations', `${grouped(s.residuals)} of the residual, ${grouped(s.jacobians)} of the Jacobian`],
-    ['events', `${grouped(s.events)}${switched ? `: ${switched}` : ''}`],
-    ['starts of the integrator', grouped(s.starts)],
-    ['Time', runTime(s)],
-    ['energy supplied', withUnit(s.supplied, 'J')],
-    ['energy stored', `${withUnit(s.stored, 'J')} more than at the start`],
-    ['energy dissipated', withUnit(s.dissipated, 'J')],
-    ['energy missing', `${withUnit(s.missing, 'J')}${share}`],
-  ], 'Statistics');
+    [t('unknowns'), `${grouped(s.unknowns)}, ${s.unknowns === 0 ? t('every motion is prescribed') : s.sparse ? t('sparse linear algebra') : t('dense linear algebra')}`],
+    [t('steps'), t('{steps}, {rejected} rejected', { steps: grouped(s.steps), rejected: grouped(s.rejected) })],
+    [t('evaluations'), t('{residuals} of the residual, {jacobians} of the Jacobian', { residuals: grouped(s.residuals), jacobians: grouped(s.jacobians) })],
+    [t('events'), `${grouped(s.events)}${switched ? `: ${switched}` : ''}`],
+    [t('starts of the integrator'), grouped(s.starts)],
+    [t('Time'), runTime(s)],
+    [t('energy supplied'), withUnit(s.supplied, 'J')],
+    [t('energy stored'), t('{energy} more than at the start', { energy: withUnit(s.stored, 'J') })],
+    [t('energy dissipated'), withUnit(s.dissipated, 'J')],
+    [t('energy missing'), `${withUnit(s.missing, 'J')}${share}`],
+  ], t('Statistics'));
 }
 
 export function claimsOf(data) {
   const claims = data.done?.claims ?? [];
   if (!claims.length) return null;
-  return table(['claim', 'claimed', 'found', 'verdict'], claims.map(({ name, claimed, found, holds }) => [withUnits(name), withUnits(claimed), withUnits(found),
-    element('span', { class: holds ? 'holds' : 'fails' }, holds ? 'holds' : 'fails')]), 'Claims');
+  return table([t('claim'), t('claimed'), t('found'), t('verdict')], claims.map(({ name, claimed, found, holds }) => [withUnits(name), withUnits(claimed), withUnits(found),
+    element('span', { class: holds ? 'holds' : 'fails' }, holds ? t('holds') : t('fails'))]), t('Claims'));
 }
 
 export function notesOf(data) {
   const notes = [...data.mistakes.map(({ text }) => text), ...(data.done?.notes ?? [])];
-  if (data.failed) notes.unshift(`The run did not come to its end: ${data.failed.message}`);
+  if (data.failed) notes.unshift(t('The run did not come to its end: {why}', { why: data.failed.message }));
   return notes.map((text) => element('p', { class: data.failed ? 'note bad' : 'note' }, text));
 }
 
@@ -159,22 +160,14 @@ export function accuracyOf(data, charts = []) {
   if (certificate) {
     host.append(element('pre', { class: certificate.holds ? 'verdict holds' : 'verdict fails', tabindex: '0' }, certificate.text));
     if (certificate.records.length)
-      host.append(table(['record', 'estimated error', 'relative', 'at', 'largest magnitude'],
+      host.append(table([t('record'), t('estimated error'), t('relative'), t('at'), t('largest magnitude')],
         certificate.records.map(({ path, unit, error, relative, at, scale }) => [element('code', {}, path), withUnit(error, unit, 2),
-          relative > 0 ? relative.toExponential(1) : '0', error > 0 ? `${number(at)}\u00a0s` : '–', withUnit(scale, unit)]), 'Errors'));
+          relative > 0 ? relative.toExponential(1) : '0', error > 0 ? `${number(at)}\u00a0s` : '–', withUnit(scale, unit)]), t('Errors')));
   }
   if (prices) {
-    const known = prices.prices.filter(({ error }) => error > 0);
     const plot = element('div');
-    host.append(element('p', {}, 'What each accuracy costs: CPU time over the error that is made.'), plot, element('pre', { tabindex: '0' }, prices.text));
-    if (known.length)
-      queueMicrotask(() => charts.push(new LoopChart(plot, {
-        x: { quantity: 'relative error of the worst record', unit: '', log: true },
-        y: { quantity: 'CPU time', unit: 's', log: true },
-        curves: [{ name: 'order up to 5', x: known.map((p) => p.error), y: known.map((p) => p.cpu) }],
-        height: 300,
-        marks: true,
-      })));
+    host.append(element('p', {}, t('What each accuracy costs: CPU time over the error that is made.')), plot, element('pre', { tabindex: '0' }, prices.text));
+    if (prices.prices.length) queueMicrotask(() => charts.push(priceChart(plot, prices.prices, t('CPU time'), 's', ({ cpu }) => cpu)));
   }
   return host;
 }

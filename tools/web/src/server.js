@@ -1,4 +1,5 @@
 // The transport to `rheonet serve`, from which the page has come.
+import { t } from './messages.js';
 
 const asJson = { 'Content-Type': 'application/json' };
 
@@ -9,7 +10,8 @@ function takeToken() {
   const given = new URLSearchParams(location.search).get(key);
   try {
     if (given) localStorage.setItem(key, given);
-    if (given) history.replaceState(history.state, '', location.pathname + location.hash);
+    // In a frame of another page no cookie loads the page again, and nobody copies its address.
+    if (given && window === top) history.replaceState(history.state, '', location.pathname + location.hash);
     return given ?? localStorage.getItem(key) ?? '';
   } catch {
     return given ?? ''; // without storage it stays in the address
@@ -20,11 +22,11 @@ const token = takeToken();
 async function ask(path, options = {}) {
   const response = await fetch(path, { ...options, headers: { ...options.headers, Authorization: `Bearer ${token}` } }).catch((error) => {
     if (error.name === 'AbortError') throw error;
-    throw new Error('the server does not answer: is `rheonet serve` still running?');
+    throw new Error(t('the server does not answer: is `rheonet serve` still running?'));
   });
   if (response.ok) return response;
   const { error, version } = await response.json().catch(() => ({}));
-  throw Object.assign(new Error(error ?? `the server answers ${response.status}`), { there: response.status === 409 ? version : '' });
+  throw Object.assign(new Error(error ?? t('the server answers {status}', { status: response.status })), { there: response.status === 409 ? version : '' });
 }
 
 const post = (path, value, signal) => ask(path, { method: 'POST', headers: asJson, body: JSON.stringify(value), signal });

@@ -1,6 +1,7 @@
 // A slider for each number of a netlist. What is moved is written into the text of the netlist, which is all there is.
 import { breakable, element } from './dom.js';
 import { typeset } from './formulas.js';
+import { t } from './messages.js';
 import { inPrint, number as inShort } from './units.js';
 
 const steps = 400;
@@ -16,7 +17,7 @@ class Slider {
     this.knob = knob;
     const label = `${knob.group === 'parameters' ? '' : `${knob.group} `}${knob.name}`;
     this.range = element('input', { type: 'range', min: '0', max: String(steps), step: '1', 'aria-label': label });
-    this.number = element('input', { type: 'text', inputmode: 'decimal', 'aria-label': `${label}, value`, size: '6' });
+    this.number = element('input', { type: 'text', inputmode: 'decimal', 'aria-label': t('{name}, value', { name: label }), size: '6' });
     this.range.addEventListener('input', () => this.slide(this.valueAt(Number(this.range.value))));
     this.range.addEventListener('pointerdown', () => (panel.held = this));
     // What is not moved while it is held does not change.
@@ -30,13 +31,17 @@ class Slider {
       this.accept();
       this.putBack();
     });
-    this.undo = element('button', { type: 'button', class: 'undo', 'aria-label': `Reset ${label}`, title: 'As the scene was opened', onclick: () => this.reset() }, '↺');
+    this.undo = element('button', { type: 'button', class: 'undo', 'aria-label': t('Reset {name}', { name: label }), title: t('As the scene was opened'), onclick: () => this.reset() }, '↺');
     this.limits = { low: element('span'), high: element('span') };
-    this.row = element('div', { class: 'slider', 'data-slider': `${knob.group}.${knob.name}` },
+    this.row = element('div', { class: 'slider', 'data-slider': this.path },
       element('span', { class: 'slider-name' }, breakable(knob.name), knob.description ? element('span', { class: 'hint', title: knob.description }, ' ', typeset(knob.description)) : null),
       element('span', { class: 'slider-way' }, this.range, element('span', { class: 'limits', 'aria-hidden': 'true' }, this.limits.low, this.limits.high)),
       this.number, element('span', { class: 'unit' }, breakable(inPrint(knob.unit))), this.undo, this.why);
     this.show();
+  }
+
+  get path() {
+    return `${this.knob.group}.${this.knob.name}`;
   }
 
   // What is typed is the number alone: a unit or a comma that was left out in silence would make it another one.
@@ -46,8 +51,8 @@ class Slider {
       this.slide(value);
       if (!this.refused) this.putBack();
     } else {
-      const what = this.knob.unit ? `a number of ${this.knob.unit}` : 'a number';
-      this.refuse(`${text ? `“${text}” is` : 'Nothing is'} not ${what}, such as 2.5 or 1e-3.${text ? ' Units and expressions belong in the netlist.' : ''}`);
+      const what = this.knob.unit ? t('a number of {unit}', { unit: this.knob.unit }) : t('a number');
+      this.refuse(text ? t('“{text}” is not {what}, such as 2.5 or 1e-3. Units and expressions belong in the netlist.', { text, what }) : t('Nothing is not {what}, such as 2.5 or 1e-3.', { what }));
     }
   }
 
@@ -131,7 +136,7 @@ class Slider {
     const found = this.literal();
     if (!found || found !== this.was) {
       this.show();
-      this.refuse('The netlist has changed here; the slider follows as soon as the netlist can be read.');
+      this.refuse(t('The netlist has changed here; the slider follows as soon as the netlist can be read.'));
       return;
     }
     this.accept();
@@ -152,7 +157,7 @@ export class Sliders {
     this.shape = '';
     this.held = null;
     this.firsts = new Map();
-    this.undoAll = element('button', { type: 'button', class: 'undo-all', title: 'All numbers as the scene was opened (R)', hidden: true, onclick: () => this.reset() }, '↺ Reset all');
+    this.undoAll = element('button', { type: 'button', class: 'undo-all', title: t('All numbers as the scene was opened (R)'), hidden: true, onclick: () => this.reset() }, t('↺ Reset all'));
     host.before(this.undoAll);
   }
 
@@ -195,28 +200,39 @@ export class Sliders {
         if (!groups.has(slider.knob.group)) groups.set(slider.knob.group, []);
         groups.get(slider.knob.group).push(slider.row);
       });
-      return [...groups].map(([group, rows]) => element('fieldset', {}, element('legend', {}, breakable(group === 'simulate' ? 'run' : group)), rows));
+      return [...groups].map(([group, rows]) => element('fieldset', {}, element('legend', {}, breakable(group === 'simulate' ? t('run') : group)), rows));
     };
     const order = (group) => (group === 'parameters' ? 0 : group === 'simulate' ? 2 : 1);
     // A demo says which are worth moving; the others are folded away.
     const asked = this.all.filter(({ knob }) => knob.asked).sort((a, b) => a.knob.asked - b.knob.asked);
     const others = this.all.filter(({ knob }) => !knob.asked);
     if (asked.length) {
-      const fields = element('fieldset', {}, element('legend', {}, 'to move'), asked.map(({ row }) => row));
+      const fields = element('fieldset', {}, element('legend', {}, t('to move')), asked.map(({ row }) => row));
       this.host.replaceChildren(fields,
-        element('details', {}, element('summary', {}, `All other numbers (${others.length})`), grouped(others)));
+        element('details', {}, element('summary', {}, t('All other numbers ({count})', { count: others.length })), grouped(others)));
     } else this.host.replaceChildren(...grouped(others));
     const matter = asked.length ? asked : [...others].sort((a, b) => order(a.knob.group) - order(b.knob.group)).slice(0, main);
     matter.forEach(({ row }) => row.classList.add('main'));
     this.showUndo();
-    if (!this.all.length) this.host.append(element('p', { class: 'note' }, 'The netlist has no numbers to turn.'));
+    if (!this.all.length) this.host.append(element('p', { class: 'note' }, t('The netlist has no numbers to turn.')));
+  }
+
+  // The texts in the netlist of the numbers with these paths, "parameters.B".
+  literals(paths) {
+    return Object.fromEntries(this.all.filter(({ path }) => paths.includes(path)).map((slider) => [slider.path, slider.literal()]));
+  }
+
+  // Writes other texts in the place of numbers. The sliders follow as soon as the netlist has been read.
+  put(literals) {
+    const changes = this.all.filter(({ path }) => literals[path]).map((slider) => ({ from: slider.from, to: slider.from + slider.literal().length, insert: literals[slider.path] }));
+    this.editor.replaceAll(changes);
   }
 
   clear() {
     this.held = null;
     this.all = [];
     this.shape = '';
-    this.host.replaceChildren(element('p', { class: 'note' }, 'The sliders are here as soon as the netlist can be read.'));
+    this.host.replaceChildren(element('p', { class: 'note' }, t('The sliders are here as soon as the netlist can be read.')));
   }
 
   // The text has changed before them.

@@ -3,6 +3,7 @@ import uPlot from 'uplot';
 import { apart, axis, borders, Chart, colour, dashes, labelOf, read, shownOf, sideways } from './chart.js';
 import { breakable, styled } from './dom.js';
 import { listenToFingers } from './gestures.js';
+import { t } from './messages.js';
 import { largestOf, shownIn, timeShown } from './units.js';
 
 // Curves of several runs over the times of all. At a jump a run has two rows of one time.
@@ -48,7 +49,7 @@ export class TimeChart extends Chart {
     host.tabIndex = 0;
     host.setAttribute('role', 'group');
     const names = curves.map((curve) => curve.name).join(', ');
-    host.setAttribute('aria-label', `${quantity} over time: ${names}. Keys: plus and minus zoom, arrows move, 0 shows all.`);
+    host.setAttribute('aria-label', t('{quantity} over time: {names}. Keys: plus and minus zoom, arrows move, 0 shows all.', { quantity, names }));
     this.quantity = quantity;
     this.unit = unit;
     this.as = as; // the unit that somebody wants
@@ -66,12 +67,12 @@ export class TimeChart extends Chart {
       value: (plot, value) => (value === null || value === undefined ? '–' : `${read(plot, 'y', value, 5)} ${this.shown.name}`),
     }));
     const data = this.data();
-    this.timeLabel = () => (labelled ? labelOf('time', this.timeUnit) : undefined);
+    this.timeLabel = () => (labelled ? labelOf(t('time'), this.timeUnit) : undefined);
     this.plot = new uPlot(
       {
         width: Math.max(this.width(), 240),
         height,
-        series: [{ label: 'time', value: (plot, t) => (t === null ? '–' : `${read(plot, 'x', t, 6, this.timeUnit.factor)} ${this.timeUnit.name}`) }, ...series],
+        series: [{ label: t('time'), value: (plot, at) => (at === null ? '–' : `${read(plot, 'x', at, 6, this.timeUnit.factor)} ${this.timeUnit.name}`) }, ...series],
         scales: { x: { time: false }, y: { range: (_, min, max) => this.rangeOf('y', shownOf(min, max, 0.1)) } },
         axes: [axis(this.timeLabel(), { space: apart, size: labelled ? 36 : 28 }, () => this.timeUnit.factor),
           axis(this.sideLabel(), { space: 24, size: (plot, values) => group.room(this, sideways(plot, values)) })],

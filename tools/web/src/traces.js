@@ -1,6 +1,7 @@
 // Runs that are kept in the plots, to be compared with those that come after them.
 import { element } from './dom.js';
 import { withUnits } from './formulas.js';
+import { t } from './messages.js';
 
 const most = 6;
 
@@ -9,8 +10,8 @@ export class Traces {
   constructor(onchange) {
     this.onchange = onchange;
     this.all = [];
-    this.freezeButton = element('button', { type: 'button', class: 'freeze', onclick: () => this.freeze(), title: 'Keep these curves, and see the next ones beside them (T)' }, 'Freeze');
-    this.clearButton = element('button', { type: 'button', class: 'thaw', onclick: () => this.clear(), hidden: true }, 'Clear');
+    this.freezeButton = element('button', { type: 'button', class: 'freeze', onclick: () => this.freeze(), title: t('Keep these curves, and see the next ones beside them (T)') }, t('Freeze'));
+    this.clearButton = element('button', { type: 'button', class: 'thaw', onclick: () => this.clear(), hidden: true }, t('Clear'));
     this.controls = element('span', { class: 'traces' }, this.freezeButton, this.clearButton);
   }
 
@@ -44,7 +45,7 @@ export class Traces {
 
   show() {
     this.clearButton.hidden = !this.all.length;
-    this.clearButton.textContent = `Clear ${this.all.length} frozen`;
+    this.clearButton.textContent = t('Clear {count} frozen', { count: this.all.length });
     this.onchange();
   }
 }

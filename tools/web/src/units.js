@@ -1,4 +1,5 @@
 // Values and units as a person reads them.
+import { t } from './messages.js';
 
 const prefixes = { '-15': 'f', '-12': 'p', '-9': 'n', '-6': 'µ', '-3': 'm', 0: '', 3: 'k', 6: 'M', 9: 'G' };
 const raised = { '-': '⁻', 0: '⁰', 1: '¹', 2: '²', 3: '³', 4: '⁴', 5: '⁵', 6: '⁶', 7: '⁷', 8: '⁸', 9: '⁹', '.': '·' };
@@ -85,4 +86,4 @@ export function largestOf(arrays) {
 }
 
 // The time that a run took, of its statistics; a page without a server has no clock of CPU time.
-export const runTime = ({ cpu_seconds: known, cpu_time: cpu, wall_time: wall }) => (known > 0 ? `${cpu} of CPU time` : wall);
+export const runTime = ({ cpu_seconds: known, cpu_time: cpu, wall_time: wall }) => (known > 0 ? t('{time} of CPU time', { time: cpu }) : wall);

@@ -1,0 +1,84 @@
+// Links: how short they are, that old ones still open, and their QR code.
+import assert from 'node:assert/strict';
+import { readdirSync, readFileSync } from 'node:fs';
+import { createRequire } from 'node:module';
+import { dirname, join } from 'node:path';
+import { test } from 'node:test';
+import { fileURLToPath } from 'node:url';
+import { deflateRawSync } from 'node:zlib';
+import { netlist, number, redrawn, setUp } from './desk.mjs';
+import { accessible, bingham } from './support.mjs';
+
+const teaching = join(dirname(fileURLToPath(import.meta.url)), '../../netlists/teaching');
+const demos = readdirSync(teaching).filter((name) => name.endsWith('.toml'));
+const desk = setUp({ 'bingham.toml': bingham, ...Object.fromEntries(demos.map((name) => [`teaching/${name}`, readFileSync(join(teaching, name), 'utf8').replace(/^include.*$/m, '')])) });
+const { open } = desk;
+
+const linkOf = async (page) => {
+  await page.locator('button', { hasText: 'Link' }).click();
+  await page.waitForFunction(() => location.hash.startsWith('#s='));
+  return page.evaluate(() => location.hash);
+};
+
+// As the page made links before it had dictionaries.
+const oldLink = (value) => `#scene=${deflateRawSync(JSON.stringify(value)).toString('base64url')}`;
+
+test('a link from before there were dictionaries opens', async () => {
+  const text = bingham.replace('2 N*m', '4 N*m');
+  const { page, close } = await open(oldLink({ scenes: [{ text, file: 'mine.toml' }], plots: { kind: 'phase', owner: null, chosen: null } }));
+  assert.equal(await netlist(page), text);
+  assert.equal(await page.locator('.plot-head input:checked').inputValue(), 'phase');
+  await close();
+});
+
+test('a link that unpacks to very much is refused', async () => {
+  const { page, close } = await open(oldLink({ scenes: [{ text: '#'.repeat(20 << 20), file: 'mine.toml' }], plots: {} }), {}, () => true);
+  await page.waitForFunction(() => /The link cannot be read/.test(document.querySelector('.status').textContent));
+  await close();
+});
+
+test('the link of a demonstration with another value has less than 150 characters', async () => {
+  for (const [name, value] of [['bingham.toml', '1.25'], ['oscillator-forced.toml', '1.25'], ['stick-slip.toml', '45']]) {
+    const { page, close } = await open(`#file=teaching/${name}`);
+    const knob = page.locator('.slider input[type="text"]').first();
+    await redrawn(page, () => knob.fill(value).then(() => knob.press('Enter')));
+    const link = await linkOf(page);
+    const before = oldLink({ scenes: [{ text: await netlist(page), file: name }], plots: {} });
+    assert.ok(link.length < 150 && before.length > 1000, `${name}: ${link.length} now, ${before.length} before`);
+    const text = await netlist(page);
+    await close();
+    const other = await open(link);
+    assert.equal(await netlist(other.page), text);
+    await other.close();
+  }
+});
+
+test('two scenes that are compared are both in the link', async () => {
+  const { page, close } = await open();
+  await page.getByRole('button', { name: 'Compare' }).click();
+  await redrawn(page, () => number(page, 'parameters.Tc').fill('5').then(() => number(page, 'parameters.Tc').press('Enter')));
+  const link = await linkOf(page);
+  await close();
+  const other = await open(link);
+  await other.page.locator('.variants label').first().click();
+  assert.match(await netlist(other.page), /Tc = "2 N\*m"/);
+  await other.page.locator('.variants label').nth(1).click();
+  assert.match(await netlist(other.page), /Tc = "5 N\*m"/);
+  await other.close();
+});
+
+test('the QR code holds the address', async () => {
+  const { page, close } = await open();
+  await page.locator('button', { hasText: 'Export' }).click();
+  await page.getByRole('menuitem', { name: 'Link as a QR code' }).click();
+  const address = page.url();
+  const path = await page.locator('.qr path').nth(1).getAttribute('d');
+  const drawn = new Set([...path.matchAll(/M(\d+) (\d+)h1v1h-1z/g)].map(([, x, y]) => `${x - 4} ${y - 4}`));
+  const { encode } = createRequire(join(process.env.NODE_PACKAGES, 'package.json'))('uqr');
+  const { data } = encode(address, { ecc: 'L', border: 0 });
+  const expected = data.flatMap((row, y) => row.flatMap((dark, x) => (dark ? [`${x} ${y}`] : [])));
+  assert.deepEqual([...drawn].sort(), expected.sort());
+  assert.match(await page.textContent('dialog[open]'), new RegExp(`The link has ${address.length} characters[^]*Only this machine can open this address`));
+  await accessible(page, 'QR code');
+  await close();
+});

@@ -1,0 +1,175 @@
+// A lesson: the student predicts, then sees the run beside the prediction, tries other values, and reads why. Until the prediction
+// is made, the page shows no result.
+import './lesson.css';
+import { task } from './api.js';
+import { element } from './dom.js';
+import { LoopChart } from './loop-chart.js';
+import { t } from './messages.js';
+import { predictionOf } from './prediction.js';
+import { paragraphs, richText } from './rich-text.js';
+
+const levels = { beginner: t('beginner'), intermediate: t('intermediate'), advanced: t('advanced') };
+export const aboutLesson = ({ level, minutes }) => t('{level}, {minutes} minutes', { level: levels[level] ?? level, minutes });
+
+export class Lesson {
+  // `box`: the part of the page for it; `others()`: the netlists with a lesson, in their order; onopen(file), onleave(): the student goes on.
+  constructor(box, { sliders, language, others, onopen, onleave }) {
+    Object.assign(this, { box, sliders, language, others, onopen, onleave });
+    this.told = null;
+  }
+
+  get isOn() {
+    return Boolean(this.told);
+  }
+
+  // Nothing of the result may be seen yet.
+  get isConcealing() {
+    return document.body.classList.contains('predicting');
+  }
+
+  // The lesson of a netlist that has just been opened. What is wrong with its file is said in its place.
+  async begin({ text, file }) {
+    this.end();
+    const asked = (this.asked = {});
+    this.conceal(true);
+    let told = null;
+    let mistakes = [];
+    try {
+      await task({ task: 'lesson', text, file, language: this.language }, (message) => {
+        if (message.kind === 'lesson') told = message;
+        if (message.kind === 'mistakes') mistakes = message.items.map((item) => item.text);
+        if (message.kind === 'failed') mistakes = [message.message];
+      });
+    } catch (error) {
+      mistakes = [error.message];
+    }
+    if (this.asked !== asked) return;
+    if (told) this.start(told, file);
+    else this.refuse(mistakes);
+  }
+
+  end() {
+    this.asked = this.told = this.data = null;
+    this.chart?.destroy();
+    this.chart = null;
+    this.conceal(false);
+    this.body?.remove();
+    this.body = null;
+  }
+
+  conceal(hidden) {
+    document.body.classList.toggle('predicting', hidden);
+  }
+
+  put(...content) {
+    this.body?.remove();
+    this.body = element('div', { class: 'lesson-steps' }, content.flat(Infinity).filter(Boolean));
+    this.box.append(this.body);
+    this.box.hidden = false;
+  }
+
+  refuse(mistakes) {
+    this.conceal(false);
+    this.put(mistakes.length ? mistakes.map((text) => element('pre', { class: 'bad', tabindex: '0' }, text)) : element('p', { class: 'note' }, t('This netlist has no lesson.')));
+  }
+
+  start(told, file) {
+    this.told = told;
+    this.file = file;
+    this.prediction = null;
+    this.shown = null;
+    this.names = [...new Set(told.presets.flatMap(({ values }) => Object.keys(values)))];
+    this.put(
+      element('div', { class: 'lesson-head' }, element('span', { class: 'note' }, aboutLesson(told)), element('button', { type: 'button', onclick: () => this.onleave(file) }, t('Leave the lesson'))),
+      told.demo.question ? element('p', { class: 'question' }, richText(told.demo.question)) : null,
+      (this.ask = element('section', {}, element('h3', {}, t('1. Predict')), paragraphs(told.predict.prompt))),
+      (this.steps = element('div')));
+    if (this.data) this.take(this.data);
+  }
+
+  // The run of the netlist as it is now.
+  take(data) {
+    this.data = data;
+    if (!this.told || !data.scene) return;
+    if (!this.prediction) this.offer();
+    if (this.shown) this.draw();
+  }
+
+  record(path) {
+    return path === 'time' ? { path: t('time'), unit: 's' } : this.data.records[this.data.index.get(path)];
+  }
+
+  offer() {
+    const record = this.record(this.told.predict.y);
+    if (!record) return;
+    const done = element('button', { type: 'button', class: 'primary', disabled: true, onclick: () => this.compare() }, t('Compare with the run'));
+    this.prediction = predictionOf(this.told.predict, () => (done.disabled = !this.prediction.isComplete), record);
+    this.done = done;
+    this.ask.append(this.prediction.host, done);
+  }
+
+  // The prediction stands: now the run may be seen.
+  compare() {
+    const { told, prediction } = this;
+    prediction.settle();
+    this.done.remove();
+    this.conceal(false);
+    this.original = this.sliders.literals(this.names);
+    const chart = element('div');
+    this.verdict = element('div', { role: 'status' });
+    this.steps.append(...[
+      element('section', {}, element('h3', { tabindex: '-1' }, t('2. Compare')), chart, this.verdict),
+      element('section', {}, element('h3', {}, t('3. Try')), element('p', {}, richText(told.demo.change)), told.presets.length ? this.presets() : null),
+      element('section', {}, element('h3', {}, t('4. Explain')), element('p', {}, t('Say it in your own words first. Then compare.')),
+        this.fold(t('See'), [element('p', {}, richText(told.demo.see))]), this.fold(t('Why'), [element('p', {}, richText(told.demo.why)), ...paragraphs(told.explain)])),
+      this.onward(),
+    ]);
+    this.chartHost = chart;
+    this.shown = true;
+    this.judged = false;
+    this.draw();
+    this.steps.querySelector('h3').focus({ preventScroll: true });
+  }
+
+  fold(name, content) {
+    return element('details', {}, element('summary', {}, name), content);
+  }
+
+  presets() {
+    const look = element('p', { role: 'status' });
+    const button = (name, values, text) => element('button', { type: 'button', onclick: () => {
+      this.sliders.put({ ...this.original, ...values });
+      look.replaceChildren(...richText(text));
+    } }, name);
+    return element('div', {}, element('div', { class: 'presets' }, this.told.presets.map(({ name, values, look: text }) => button(name, values, text)),
+      button(t('as at first'), {}, '')), look);
+  }
+
+  onward() {
+    const all = this.others();
+    const next = all[all.findIndex(({ file }) => file === this.file) + 1];
+    return element('p', { class: 'onward' },
+      element('button', { type: 'button', onclick: () => this.onopen(this.file) }, t('Begin this lesson again')),
+      next ? element('button', { type: 'button', onclick: () => this.onopen(next.file) }, t('Next lesson: {title}', { title: next.title })) : null);
+  }
+
+  runCurve() {
+    const { x, y } = this.told.predict;
+    return { x: x === 'time' ? this.data.time : this.data.column(x), y: this.data.column(y) };
+  }
+
+  draw() {
+    const { x, y } = this.told.predict;
+    if (!this.data.hasCurves || !this.record(y)) return;
+    const isOver = this.data.done || this.data.failed;
+    if (isOver && !this.judged) this.verdict.append(...this.prediction.verdict(this.runCurve()));
+    this.judged ||= isOver;
+    const curves = [{ name: t('the run'), ...this.runCurve(), style: 0 }, { name: t('your prediction'), x: this.prediction.curve.x, y: this.prediction.curve.y, style: 1, dash: 1 }];
+    if (this.chart) {
+      this.chart.update(curves);
+      return;
+    }
+    const side = (path) => ({ quantity: this.record(path).path, unit: this.record(path).unit, as: this.record(path).shown });
+    this.chart = new LoopChart(this.chartHost, { x: side(x), y: side(y), curves, height: 280 });
+  }
+}

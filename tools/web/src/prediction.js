@@ -1,0 +1,99 @@
+// What a student expects of a run before it is shown: one of several curves, or a curve that is sketched.
+import { element, freshId } from './dom.js';
+import { t } from './messages.js';
+import { richText } from './rich-text.js';
+import { Sketch } from './sketch.js';
+
+const [width, height] = [180, 110]; // of the little picture of a choice
+
+// Pictures of curves to the same scale.
+function pictures(choices) {
+  const ends = (key) => {
+    const values = choices.flatMap((choice) => choice[key]);
+    const [low, high] = [Math.min(...values), Math.max(...values)];
+    return high > low ? [low, high] : [low - 1, high + 1];
+  };
+  const [x, y] = [ends('x'), ends('y')];
+  const place = (value, [low, high], size) => (8 + ((value - low) / (high - low)) * (size - 16)).toFixed(1);
+  return choices.map((choice) => {
+    const host = element('span', { class: 'choice-picture', 'aria-hidden': 'true' });
+    const points = choice.x.map((value, k) => `${place(value, x, width)} ${(height - place(choice.y[k], y, height)).toFixed(1)}`);
+    const zero = y[0] <= 0 && y[1] >= 0 ? `<path class="choice-zero" d="M8 ${(height - place(0, y, height)).toFixed(1)}H${width - 8}"/>` : '';
+    host.innerHTML = `<svg viewBox="0 0 ${width} ${height}">${zero}<path class="choice-curve" d="M${points.join('L')}"/></svg>`;
+    return host;
+  });
+}
+
+class Choice {
+  constructor({ choices }, onchange) {
+    this.choices = choices;
+    this.chosen = null;
+    const name = freshId('choice');
+    const drawn = pictures(choices);
+    this.inputs = choices.map((choice, k) => {
+      const input = element('input', { type: 'radio', name });
+      input.addEventListener('change', () => {
+        this.chosen = k;
+        onchange();
+      });
+      return input;
+    });
+    this.host = element('div', { class: 'choices', role: 'radiogroup', 'aria-label': t('Which curve do you expect?') },
+      choices.map((choice, k) => element('label', {}, this.inputs[k], drawn[k], element('span', {}, richText(choice.text)))));
+  }
+
+  get isComplete() {
+    return this.chosen !== null;
+  }
+
+  get curve() {
+    return this.choices[this.chosen];
+  }
+
+  settle() {
+    this.inputs.forEach((input) => (input.disabled = true));
+  }
+
+  // What is said of it beside the run.
+  verdict() {
+    const { right, reply } = this.curve;
+    return [element('p', { class: right ? 'holds' : 'fails' }, right ? t('That is what happens.') : t('That is not what happens.')), element('p', {}, richText(reply))];
+  }
+}
+
+class Drawing {
+  constructor({ start, stop, range }, onchange, record) {
+    this.sketch = new Sketch({ start, stop, range, quantity: record.path, unit: record.unit, as: record.shown, onchange });
+    this.again = element('button', { type: 'button', onclick: () => this.sketch.clear() }, t('Erase'));
+    this.host = element('div', { class: 'drawing-board' }, element('p', { class: 'note' }, t('Draw from left to right, by mouse, by finger, or with the arrow keys.')), this.sketch.svg, this.again);
+  }
+
+  get isComplete() {
+    return this.sketch.isComplete;
+  }
+
+  get curve() {
+    return this.sketch.curve;
+  }
+
+  settle() {
+    this.host.remove();
+  }
+
+  // How far it is from the run on average, as a part of the height of the run.
+  verdict({ x: times, y: values }) {
+    const { x, y } = this.curve;
+    const height = Math.max(...values) - Math.min(...values);
+    if (!(height > 0)) return [];
+    let squares = 0;
+    times.forEach((time, k) => {
+      const j = Math.min(x.length - 2, Math.max(0, Math.floor(((time - x[0]) / (x.at(-1) - x[0])) * (x.length - 1))));
+      const drawn = y[j] + ((y[j + 1] - y[j]) * (time - x[j])) / (x[j + 1] - x[j]);
+      squares += (drawn - values[k]) ** 2;
+    });
+    const off = Math.round((100 * Math.sqrt(squares / times.length)) / height);
+    return [element('p', {}, t('On average your curve is {off} % of the height of the run away from it.', { off }))];
+  }
+}
+
+export const predictionOf = (asked, onchange, record) => (asked.choices ? new Choice(asked, onchange) : new Drawing(asked, onchange, record));
