@@ -62,6 +62,7 @@ std::string word(const json& value, const char* key) {
 
 std::optional<json> task_of(const json& request) {
   const std::string kind = word(request, "task");
+  if (kind == "catalogue") return json{{"task", kind}};
   if (kind == "show" || kind == "explain" || kind == "csv") {
     std::optional<json> task = scene_of(request);
     if (!task) return {};
