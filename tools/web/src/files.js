@@ -12,7 +12,7 @@ export class Files {
   constructor(desk) {
     this.desk = desk;
     this.folder = { scenes: [], may_be_written: false };
-    this.gallery = new Gallery({ onopen: (file) => this.openFile(file, true) });
+    this.gallery = new Gallery({ onopen: (file) => this.openFile(file, true), onnew: () => this.desk.beginAnew() });
     this.saving = new SaveDialog({ onsaved: (saved) => this.saved(saved) });
     addEventListener('popstate', (event) => this.openAddress(event.state));
     addEventListener('beforeunload', () => this.keep());
@@ -68,6 +68,12 @@ export class Files {
       this.desk[anew ? 'say' : 'notify'](`${file}: ${error.message}`, true);
       return false;
     }
+  }
+
+  // What comes next is of no file; there is a way back to what was there before.
+  leave() {
+    this.keep();
+    history.pushState(null, '', location.pathname + location.search);
   }
 
   nameInAddress(file, anew = false) {

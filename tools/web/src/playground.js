@@ -5,12 +5,14 @@ import './motion.css';
 import './presentation.css';
 import { Animation } from './animation.js';
 import { explain } from './api.js';
+import { Drawing } from './drawing.js';
 import { element, schematicOf } from './dom.js';
 import { Editor } from './editor.js';
 import { choices } from './choices.js';
 import { DrawingView } from './drawing-view.js';
+import { assistance } from './completion.js';
 import { Files } from './files.js';
-import { firstScene } from './first-scene.js';
+import { emptyScene, firstScene } from './first-scene.js';
 import { Folds } from './folds.js';
 import { helpDialog } from './help.js';
 import { listenToKeys } from './keys.js';
@@ -36,13 +38,18 @@ class Playground {
     this.build(host);
     this.editor = new Editor(this.parts.editor, {
       onchange: (text, typed) => this.edited(text, typed),
-      onmove: (changes) => this.sliders?.move(changes),
+      onmove: (changes) => {
+        this.sliders?.move(changes);
+        this.drawing?.inspector.move(changes);
+      },
+      extensions: assistance(() => this.drawing),
     });
     this.sliders = new Sliders(this.parts.sliders, this.editor);
     this.traces = new Traces(() => this.showPlots());
     this.plots = new PlotPanel(this.parts.plots, { onchange: () => this.showSections(), fits: true, traces: this.traces });
     this.folds = new Folds(this.parts.sections, () => this.explain());
     this.animation = new Animation(this.parts.animation, { onframe: (time) => this.plots.mark(time) });
+    this.drawing = new Drawing(this, { drawing: this.parts.drawing, bar: this.parts.draw, cards: this.parts.inspector });
     const { presentation } = this;
     listenToKeys({
       save: () => this.files.save(),
@@ -84,6 +91,7 @@ class Playground {
     this.themeButton = button('◐', switchTheme, { 'aria-label': 'Light or dark', title: 'Light or dark' });
     const bar = element('header', { class: 'bar' }, this.title, element('nav', { class: 'actions', 'aria-label': 'Actions' },
       button('Gallery', () => this.files.gallery.open()),
+      button('New', () => this.beginAnew(), { title: 'An empty scene to draw in' }),
       menu('Save', () => this.files.saves()),
       menu('Export', () => this.files.exports()),
       button('Link', () => this.files.copyLink()),
@@ -94,11 +102,11 @@ class Playground {
     host.append(bar, element('main', { class: 'desk' },
       box('editor', 'Netlist', this.choice, part('editor'), part('mistakes')),
       // Before the stage: that is the order of the Tab key.
-      box('sliders', 'Sliders', part('sliders')),
+      box('sliders', 'Sliders', part('inspector', 'section'), part('sliders')),
       element('div', { class: 'stage' },
         element('div', { class: 'view' },
           (this.lesson = box('lesson', 'Question')),
-          box('schematic', 'Schematic', part('drawing'), part('animation')),
+          box('schematic', 'Schematic', part('draw'), part('drawing'), part('animation')),
           box('plots', 'Plots', this.status, part('plots'))),
         box('more', 'More', part('sections')))));
     this.view = new DrawingView(this.parts.drawing);
@@ -140,6 +148,12 @@ class Playground {
     scenes.forEach((scene, k) => this.load(k, scene));
   }
 
+  beginAnew() {
+    this.files.leave();
+    this.begin({ scenes: [{ text: emptyScene, file: 'scene.toml' }] });
+    this.drawing.switch(true);
+  }
+
   // Texts and runs.
 
   // `version` is that of the file of the folder that has this text, or has the text `opened`, from which this one was made.
@@ -161,12 +175,14 @@ class Playground {
     this.view.attach();
     this.parts.animation.hidden = true;
     this.drawn = null;
+    this.drawing.clear();
     this.showTitle('');
     this.showLesson({});
   }
 
   wasRead(variant, data, read) {
     if (variant !== this.current || read !== variant.text) return;
+    this.drawing.known(data.scene, read);
     if (variant.fresh) variant.first = data.scene.sliders.map((knob) => ({ ...knob }));
     this.sliders.show(data.scene.sliders, variant.fresh, variant.first);
     if (variant.fresh) this.showSchematic(data.scene);
@@ -178,6 +194,7 @@ class Playground {
     variant.text = text;
     this.showBusy();
     this.files.changed();
+    this.drawing?.follow();
     clearTimeout(this.typing);
     if (typed) this.typing = setTimeout(() => variant.runner.run(text, variant.file), typing);
     else variant.runner.run(text, variant.file);
@@ -187,6 +204,13 @@ class Playground {
     const isCurrent = variant === this.current;
     if (complete) variant.answered = text;
     this.showBusy();
+    if (complete && isCurrent && data.mistakes.length === 1 && this.drawing.isEmpty) {
+      // That there are no elements is no mistake of a scene that has just been begun.
+      this.showMistakes({ mistakes: [] }, text === variant.text);
+      this.parts.plots.hidden = true;
+      this.say('Nothing to run yet: choose an element, then click where its ends go.');
+      return;
+    }
     if (complete && isCurrent) this.showMistakes(data, text === variant.text);
     if (!data.scene) {
       variant.stale = true;
@@ -261,6 +285,7 @@ class Playground {
     if (scene.schematic === this.drawn) return;
     this.drawn = scene.schematic;
     this.parts.drawing.replaceChildren(schematicOf(scene));
+    this.drawing.attach(scene);
     this.view.attach();
   }
 
@@ -275,6 +300,7 @@ class Playground {
 
   showPlots() {
     const several = this.variants.length > 1;
+    this.parts.plots.hidden = false;
     this.traces.offer(this.current);
     const now = this.variants.map(({ label, data, text, shown, file }) => ({ label: several ? label : this.traces.all.length ? 'now' : '', data, text: shown ?? text, file }));
     this.plots.show([...now, ...this.traces.all]);
@@ -291,6 +317,7 @@ class Playground {
   }
 
   showMistakes(data, isNew) {
+    if (isNew) this.drawing.told(data.mistakes);
     if (isNew) this.editor.mark([...data.mistakes, ...(data.failed?.line ? [{ ...data.failed, severity: 'error' }] : [])]);
     this.parts.mistakes.replaceChildren(...data.mistakes.map(({ severity, line, column, message, hint }) =>
       element('button', { type: 'button', class: `mistake ${severity}`, onclick: () => line && this.editor.go(line, column) },
@@ -342,6 +369,7 @@ class Playground {
     this.editor.load(text);
     this.clear();
     if (data.scene) {
+      this.drawing.known(data.scene, shown);
       if (shown === text) this.sliders.show(data.scene.sliders, true, this.current.first);
       this.showScene(data);
       this.showMistakes(data, true);
