@@ -97,6 +97,25 @@ for (const [what, address, cut] of [['a static host', () => hosted.address, fals
   });
 }
 
+test('an element is drawn, its card has law and fields, and rheonet checks them, without a server', async () => {
+  const { page, close } = await open(`${hosted.address}#file=teaching/stick-slip.toml`);
+  await page.getByRole('button', { name: 'Draw', exact: true }).click();
+  await page.locator('.palette-type[data-type="spring"]').click();
+  await page.locator('.end-handle[data-at="belt"]').first().click();
+  await redrawn(page, () => page.locator('.prompt').getByRole('button', { name: 'ground', exact: true }).click());
+  assert.match(await netlist(page), /^spring1 = \{ type = "spring", between = \["belt", "ground"\], stiffness = "100 N\/m" \}$/m);
+  await page.locator('.inspector .katex').waitFor();
+  await page.locator('.inspector').getByLabel('stiffness k').fill('3 kg');
+  await page.keyboard.press('Tab');
+  await page.locator('.inspector-wrong p', { hasText: 'expected a stiffness (N/m)' }).waitFor();
+  // The schema is that of the program.
+  await page.locator('.cm-line', { hasText: '[simulate]' }).click();
+  await page.keyboard.press('End');
+  await page.keyboard.type('\nstart_');
+  await page.locator('.cm-tooltip-autocomplete li', { hasText: 'start_from' }).waitFor();
+  await close();
+});
+
 test('embedded: the scene of a link, its schematic, sliders and plots, and a way to all of it', async () => {
   const { page, close } = await open(`${hosted.address}?embed#file=teaching/bingham.toml`, { viewport: { width: 700, height: 600 } });
   for (const part of ['.schematic-box', '.sliders-box', '.plots-box']) assert.ok(await page.locator(part).isVisible(), part);

@@ -16,9 +16,9 @@ test('every text of the sources is given to t(), and has a translation in every 
 
 test('a text outside of t(), or without a translation, is found', () => {
   const parse = parser();
-  const code = "element('p', {}, 'run');\nelement('p', { class: 'note bad', 'aria-label': 'Close' }, t('found'), `${n} steps taken`);\nfail('there is nothing to draw');\nhost.textContent = 'Pause';";
+  const code = "element('p', {}, 'run');\nelement('p', { class: 'note bad', 'aria-label': 'Close' }, t('found'), `${n} steps taken`);\nfail('there is nothing to draw');\nhost.textContent = 'Pause';\nhost.addEventListener('click', () => refuse('A value is missing.'));";
   const { outside } = textsOf((_, options) => parse(code, options), ['menu.js']);
-  assert.deepEqual(outside.map((line) => line.replace(/^menu\.js:/, '')), ['1: run', '2: Close', '2: {} steps taken', '3: there is nothing to draw', '4: Pause']);
+  assert.deepEqual(outside.map((line) => line.replace(/^menu\.js:/, '')), ['1: run', '2: Close', '2: {} steps taken', '3: there is nothing to draw', '4: Pause', '5: A value is missing.']);
   const used = new Map([['{count} of {name}', 'menu.js:1'], ['new', 'menu.js:2']]);
   assert.deepEqual(faultsOf({ used }, { de: { '{count} of {name}': '{count} von {nme}', old: 'alt' } }),
     ['de.json has other {names} in: "{count} of {name}"', 'de.json lacks: "new" (menu.js:2)', 'de.json has a text that is not used: "old"']);

@@ -1,5 +1,7 @@
 #include "tools/draw/symbol_path.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cctype>
 #include <charconv>
@@ -70,6 +72,19 @@ Symbol symbol_of(const Scene& scene, int element) {
   Symbol symbol = symbol_of(component, domain_of(scene, drawn));
   if (component.signal_drawing) symbol.lines += component.signal_drawing(drawn.signals.front());
   return symbol;
+}
+
+std::string symbol_svg(const Component& component, Domain domain) {
+  constexpr double side = 60, stroke = 2;
+  const Symbol& symbol = symbol_of(component, domain);
+  const Reach reach = reach_of(symbol);
+  const double top = side * (0.5 - reach.up) - stroke, height = side * (reach.up + reach.down) + 2 * stroke;
+  const auto path = [&](const std::string& drawn, const char* attributes) {
+    return drawn.empty() ? "" : fmt::format("<path d=\"{}\"{}/>", fitted(drawn, {0, 0, side, side}, false), attributes);
+  };
+  return fmt::format("<svg viewBox=\"{} {} {} {}\" fill=\"none\" stroke=\"currentColor\" stroke-width=\"{}\" stroke-linejoin=\"round\" aria-hidden=\"true\">", -stroke,
+                     plot::coordinate(top), side + 2 * stroke, plot::coordinate(height), stroke) +
+         path(symbol.outline, "") + path(symbol.thin, " stroke-width=\"1\"") + path(symbol.lines, "") + path(symbol.solid, " fill=\"currentColor\" stroke=\"none\"") + "</svg>";
 }
 
 Symbol support_symbol() {

@@ -12,6 +12,9 @@ const Symbol& symbol_of(const Component& component, Domain domain);
 /// What is drawn of an element, with the shape of its signal where the component says how.
 Symbol symbol_of(const Scene& scene, int element);
 
+/// The symbol of a component alone, as an SVG element in the colour of the text around it.
+std::string symbol_svg(const Component& component, Domain domain);
+
 /// That of the support of a transmission, between its second node and its support: a bearing.
 Symbol support_symbol();
 

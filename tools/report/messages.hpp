@@ -18,6 +18,7 @@ namespace rheonet::report {
 ///
 ///     mistakes     what is wrong with a netlist, or doubtful: severity, line and column, message, hint
 ///     scene        what was read: title, records, elements, schematic, equations, sliders
+///     catalogue    the element types that a netlist can name, and the JSON Schema of netlists
 ///     explanation  what is simulated, and why: passages in words; or why it cannot be
 ///     rows         a part of the rows, by column
 ///     energy       the energy account over time
@@ -33,6 +34,9 @@ std::string mistakes_message(const ReadResult& read);
 
 /// What the scene is; the first `own_records` of its records are those that it asks for itself.
 std::string scene_message(const ReadResult& read, const std::string& file, std::size_t own_records);
+
+/// The element types: ports, parameters with a value to begin with, law and symbol; and the JSON Schema. It needs no netlist.
+std::string catalogue_message();
 
 /// What `rheonet explain` says of a scene; the run is begun for that.
 std::string explanation_message(const Scene& scene);

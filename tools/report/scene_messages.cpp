@@ -26,6 +26,8 @@ const char* name_of(Sources::Role role) {
   return role == Sources::Role::scene ? "scene" : role == Sources::Role::included ? "included" : "table";
 }
 
+const char* name_of(Domain domain) { return domain == Domain::rotation ? "rotation" : "translation"; }
+
 const char* name_of(Record::Subject subject) {
   using Subject = Record::Subject;
   return subject == Subject::node         ? "node"
@@ -97,6 +99,7 @@ json elements(const Scene& scene) {
                     {"place", place},
                     {"a", node(element.a)},
                     {"b", element.at ? "" : node(element.b)},
+                    {"domain", name_of(domain_of(scene, element))},
                     {"values", values},
                     {"numbers", numbers_of(element)}});
   }
@@ -158,22 +161,25 @@ json plot(const PlotTable& table) {
   return {{"curves", curves}};
 }
 
-/// The drawing, the nodes at the left and the right end of each symbol in it, or why there is none.
+/// The drawing, the nodes at the left and the right end of each symbol in it, where each symbol is joined to a node, or why there is
+/// no drawing.
 json schematic(const ReadResult& read) {
   const Scene& scene = *read.scene;
   try {
     const draw::Picture picture = draw::schematic(scene, {.title = "", .sources = &read.sources});
-    json ends = json::object();
+    json ends = json::object(), joints = json::array();
     for (const draw::Mark& mark : picture.marks) {
       json& of_element = ends[scene.elements[static_cast<std::size_t>(mark.element)].name];
       for (const draw::Mark::End& end : mark.ends) {
         const bool left = 2 * end.at.x < mark.box.left + mark.box.right;
-        of_element[left ? "left" : "right"] = scene.nodes[static_cast<std::size_t>(end.node)].name;
+        const std::string& node = scene.nodes[static_cast<std::size_t>(end.node)].name;
+        of_element[left ? "left" : "right"] = node;
+        joints.push_back({{"element", scene.elements[static_cast<std::size_t>(mark.element)].name}, {"node", node}, {"x", end.at.x}, {"y", end.at.y}});
       }
     }
-    return {{"svg", draw::svg(picture, scene)}, {"ends", ends}, {"why_not", ""}};
+    return {{"svg", draw::svg(picture, scene)}, {"ends", ends}, {"joints", joints}, {"why_not", ""}};
   } catch (const plot::Mistake& mistake) {
-    return {{"svg", ""}, {"ends", json::object()}, {"why_not", mistake.what()}};
+    return {{"svg", ""}, {"ends", json::object()}, {"joints", json::array()}, {"why_not", mistake.what()}};
   }
 }
 
@@ -227,7 +233,7 @@ std::string scene_message(const ReadResult& read, const std::string& file, std::
   return to_line({{"kind", "scene"},
                   {"file", file},
                   {"title", scene.title},
-                  {"domain", scene.domain == Domain::rotation ? "rotation" : "translation"},
+                  {"domain", name_of(scene.domain)},
                   {"start", scene.start},
                   {"stop", scene.stop},
                   {"accuracy", scene.accuracy},
@@ -242,6 +248,7 @@ std::string scene_message(const ReadResult& read, const std::string& file, std::
                   {"plot", plot(read.presentation.plot)},
                   {"schematic", drawing.at("svg")},
                   {"ends", drawing.at("ends")},
+                  {"joints", drawing.at("joints")},
                   {"no_schematic", drawing.at("why_not")},
                   {"sources", sources}});
 }

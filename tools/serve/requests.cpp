@@ -76,6 +76,7 @@ std::string word(const json& value, const char* key) {
 
 std::optional<json> task_of(const json& request) {
   const std::string kind = word(request, "task");
+  if (kind == "catalogue") return json{{"task", kind}};
   if (is_one_of(kind, {"show", "explain", "csv", "effects", "precision", "lesson"})) {
     std::optional<json> task = scene_of(request);
     if (!task) return {};

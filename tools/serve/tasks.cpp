@@ -135,6 +135,7 @@ void carry_out(const json& task, const Offers& offers, const Tell& tell) {
   const auto failed = [&](const char* why) { tell(report::to_line({{"kind", "failed"}, {"message", why}})); };
   try {
     const std::string kind = task.at("task").get<std::string>();
+    if (kind == "catalogue") return tell(report::catalogue_message());
     if (kind == "show") return show(task, offers, tell);
     if (kind == "explain") return explain_to_page(task, offers, tell);
     if (kind == "csv") return csv(task, offers, tell);

@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# build.sh BUILD WEB OUTPUT VERSION IDA_INCLUDE CCACHE UNIT_TABLE: compiles rheonet to WebAssembly in BUILD and puts the site together in OUTPUT, of
+# build.sh BUILD WEB OUTPUT VERSION IDA_INCLUDE CCACHE UNIT_TABLE PROGRAM: compiles rheonet to WebAssembly in BUILD and puts the site together in OUTPUT, of
 # the pages that are bundled in WEB. Where the sources of the solvers cannot be fetched, or there are no pages, it says so and makes
 # no site, so that all else builds. CCACHE is the compiler cache, or "";
-# UNIT_TABLE the program that writes the table of units.
+# UNIT_TABLE the program that writes the table of units, PROGRAM rheonet itself, which writes the JSON Schema.
 set -euo pipefail
 source=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
-build=$1 web=$2 output=$3 version=$4 ida=$5 ccache=$6 unit_table=$7
+build=$1 web=$2 output=$3 version=$4 ida=$5 ccache=$6 unit_table=$7 program=$8
 
 without_site() {
   echo "warning: the site is not built: $1" >&2
@@ -34,4 +34,5 @@ cmake --build "$build/wasm" --parallel "$(nproc)" >"$build/build.log" 2>&1 || {
   exit 1
 }
 "$unit_table" >"$build/units.txt"
+"$program" schema >"$build/schema.json"
 node "$source/pack.mjs" "$web" "$build" "$source/../../netlists" "$output"

@@ -11,8 +11,8 @@ const [wasm, sources] = [join(build, 'wasm'), join(build, 'sources')];
 const read = (folder, name) => readFileSync(join(folder, name), 'utf8');
 
 // The file system of the module: what its file offer gives (tools/serve/below.hpp), the pages that order the gallery, and the
-// template of reports, and the units.
-const files = { '/report.html': read(web, 'report.html'), '/units.txt': read(build, 'units.txt') };
+// template of reports, the units, and the JSON Schema.
+const files = { '/report.html': read(web, 'report.html'), '/units.txt': read(build, 'units.txt'), '/schema.json': JSON.stringify(JSON.parse(read(build, 'schema.json'))) };
 for (const entry of readdirSync(netlists, { withFileTypes: true, recursive: true })) {
   const path = join(entry.parentPath ?? entry.path, entry.name);
   if (entry.isFile() && /\.(toml|csv|lesson)$|^README\.md$/.test(entry.name)) files[`/netlists/${relative(netlists, path)}`] = readFileSync(path, 'utf8');

@@ -17,12 +17,12 @@ if(RHEONET_SITE AND RHEONET_WEB AND NODE AND NPM)
     add_custom_command(
       OUTPUT ${RHEONET_SITE_DIR}/rheonet.html
       COMMAND ${site}/build.sh ${CMAKE_BINARY_DIR}/tools/site ${CMAKE_BINARY_DIR}/tools/web ${RHEONET_SITE_DIR} ${PROJECT_VERSION}
-        ${IDA_INCLUDE} "${CMAKE_CXX_COMPILER_LAUNCHER}" $<TARGET_FILE:rheonet_unit_table>
+        ${IDA_INCLUDE} "${CMAKE_CXX_COMPILER_LAUNCHER}" $<TARGET_FILE:rheonet_unit_table> $<TARGET_FILE:rheonet_program>
       DEPENDS ${site_sources} ${site_netlists}
       COMMENT "Building the site"
       VERBATIM)
     add_custom_target(rheonet_site ALL DEPENDS ${RHEONET_SITE_DIR}/rheonet.html)
-    add_dependencies(rheonet_site rheonet_web rheonet_unit_table)
+    add_dependencies(rheonet_site rheonet_web rheonet_unit_table rheonet_program)
   else()
     message(STATUS "emscripten is missing (Debian: emscripten, libfast-float-dev): the site is not built")
   endif()

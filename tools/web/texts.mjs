@@ -17,6 +17,8 @@ const takersOfNames = new Set(['querySelector', 'querySelectorAll', 'closest', '
   'styled', 'DOMException', 'freshId', 'RegExp', 'join', 'split', 'includes', 'startsWith', 'endsWith', 'getElementById', 'encodeURIComponent', 'fold']);
 // Each language by its own name, and the name of the project.
 const properNames = new Set(['English', 'Deutsch', 'Español', 'Français', 'rheonet']);
+// Fields of cards that are named as the keys of the netlist that they write.
+const keysOfNetlists = new Set(['block', 'domain', 'in']);
 const keysOfTexts = new Set(['aria-label', 'title', 'placeholder', 'label', 'alt']);
 // `key === 'Escape'`.
 const isComparison = ({ type, operator }) => type === 'BinaryExpression' && /^[!=]==?$|^in$/.test(operator);
@@ -67,7 +69,8 @@ function isName(node, ancestors) {
     const child = ancestors[k + 1] ?? node;
     if (each.type === 'Property' && child === each.value && keysOfNames.has(each.key.name ?? each.key.value)) return true;
     if (each.type === 'AssignmentExpression' && child === each.right && /^(font|className|innerHTML|transform|d)$/.test(each.left.property?.name ?? '')) return true;
-    return (each.type === 'CallExpression' || each.type === 'NewExpression') && each.arguments.includes(child) && takersOfNames.has(nameOf(each.callee));
+    // A function that is given to addEventListener() is no name, and may have texts.
+    return (each.type === 'CallExpression' || each.type === 'NewExpression') && each.arguments.includes(child) && !/Function/.test(child.type) && takersOfNames.has(nameOf(each.callee));
   });
 }
 
@@ -91,7 +94,7 @@ export function textsOf(parse, names = readdirSync(source).filter((name) => name
         if (each !== node && each.type === 'CallExpression' && each.callee.name === 't') return;
         const text = textOf(each);
         if (text === undefined) return;
-        if (properNames.has(text.trim()) || isName(each, above)) return;
+        if (properNames.has(text.trim()) || keysOfNetlists.has(text) || isName(each, above)) return;
         const isWord = /[A-Za-zÀ-ÿ]{2,}/.test(words(text)) && isShown(each, above);
         if (isWord || looksLikeText(text)) outside.push(`${name}:${each.loc.start.line}: ${text}`);
       }

@@ -34,3 +34,6 @@ export async function file(request) {
 }
 
 export const explain = (request) => answer({ task: 'explain', ...request }, 'explanation');
+
+// The element types and the schema of netlists.
+export const catalogue = () => answer({ task: 'catalogue' }, 'catalogue');

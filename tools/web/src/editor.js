@@ -1,5 +1,5 @@
 // The editor of a netlist, with mistakes marked where they are.
-import { defaultKeymap, history, historyKeymap } from '@codemirror/commands';
+import { defaultKeymap, history, historyKeymap, isolateHistory, redo, undo } from '@codemirror/commands';
 import { bracketMatching, HighlightStyle, StreamLanguage, syntaxHighlighting } from '@codemirror/language';
 import { toml } from '@codemirror/legacy-modes/mode/toml';
 import { lintGutter, lintKeymap, setDiagnostics } from '@codemirror/lint';
@@ -25,12 +25,16 @@ const look = EditorView.theme({
   '.cm-selectionBackground, &.cm-focused > .cm-scroller > .cm-selectionLayer .cm-selectionBackground': {
     backgroundColor: 'color-mix(in srgb, var(--accent) 25%, transparent)',
   },
+  '.cm-tooltip .hover, .cm-completionInfo': { maxWidth: '26rem', padding: '0.3rem 0.6rem', overflowWrap: 'anywhere' },
+  '.cm-tooltip.cm-tooltip-autocomplete > ul > li[aria-selected]': { backgroundColor: 'var(--accent)', color: 'var(--on-accent)' },
+  '.cm-completionDetail': { color: 'inherit' },
   '.cm-tooltip': { backgroundColor: 'var(--paper)', color: 'var(--ink)', border: '1px solid var(--line)' },
 });
 
 export class Editor {
-  // onchange(text, byUser); onmove(changes): positions move.
-  constructor(host, { onchange, onmove }) {
+  // onchange(text, byUser); onmove(changes): positions move; `extensions` of CodeMirror.
+  constructor(host, { onchange, onmove, extensions = [] }) {
+    this.extensions = extensions;
     this.onchange = onchange;
     this.onmove = onmove;
     this.view = new EditorView({ parent: host, state: this.stateOf('') });
@@ -41,7 +45,7 @@ export class Editor {
       doc: text,
       extensions: [
         lineNumbers(), highlightActiveLine(), highlightActiveLineGutter(), drawSelection(), history(), bracketMatching(),
-        StreamLanguage.define(toml), syntaxHighlighting(colours), look, lintGutter(), EditorView.lineWrapping,
+        StreamLanguage.define(toml), syntaxHighlighting(colours), look, lintGutter(), EditorView.lineWrapping, this.extensions,
         EditorView.contentAttributes.of({ 'aria-label': t('Netlist'), tabindex: '0' }),
         keymap.of([...defaultKeymap, ...historyKeymap, ...lintKeymap]),
         EditorView.updateListener.of((update) => {
@@ -73,6 +77,25 @@ export class Editor {
     this.quiet = false;
   }
 
+  // Changes several places at once, as one step of undo; the first of them comes into sight.
+  edit(changes) {
+    this.quiet = true;
+    this.view.dispatch({ changes, annotations: isolateHistory.of('full'), effects: EditorView.scrollIntoView(changes[0].from, { y: 'nearest', yMargin: 40 }) });
+    this.quiet = false;
+  }
+
+  undo() {
+    this.quiet = true;
+    undo(this.view);
+    this.quiet = false;
+  }
+
+  redo() {
+    this.quiet = true;
+    redo(this.view);
+    this.quiet = false;
+  }
+
   // The place of a line and a column (both from 1, in characters).
   offset(line, column) {
     const { doc } = this.view.state;
@@ -97,7 +120,10 @@ export class Editor {
   }
 
   go(line, column) {
-    const anchor = this.offset(line, column);
+    this.goTo(this.offset(line, column));
+  }
+
+  goTo(anchor) {
     this.view.dispatch({ selection: { anchor }, effects: EditorView.scrollIntoView(anchor, { y: 'center' }) });
     this.view.focus();
   }

@@ -16,7 +16,7 @@ export class Files {
   constructor(desk) {
     this.desk = desk;
     this.folder = { scenes: [], may_be_written: false };
-    this.gallery = new Gallery({ onopen: (file, isLesson) => this.openFile(file, true, isLesson) });
+    this.gallery = new Gallery({ onopen: (file, isLesson) => this.openFile(file, true, isLesson), onnew: () => this.desk.beginAnew() });
     this.saving = new SaveDialog({ onsaved: (saved) => this.saved(saved) });
     addEventListener('popstate', (event) => this.openAddress(event.state));
     addEventListener('beforeunload', () => this.keep());
@@ -77,6 +77,12 @@ export class Files {
       this.desk[anew ? 'say' : 'notify'](`${file}: ${error.message}`, true);
       return false;
     }
+  }
+
+  // What comes next is of no file; there is a way back to what was there before.
+  leave() {
+    this.keep();
+    history.pushState(null, '', location.pathname + location.search);
   }
 
   nameInAddress(file, anew = false, lesson = false) {

@@ -11,3 +11,13 @@ block = { position = "1 cm" }
 [simulate]
 stop = "2 s"
 `;
+
+// What a scene of one's own begins with.
+export const emptyScene = `title = "New scene"
+
+[elements]
+
+[simulate]
+stop = "10 s"
+output = { points = 1001 }
+`;

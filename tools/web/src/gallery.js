@@ -23,12 +23,14 @@ function leftOutOf(shown, leftOut, allVisited) {
 }
 
 export class Gallery {
-  constructor({ onopen }) {
+  // onopen(file): a netlist is chosen; onnew(): an empty one.
+  constructor({ onopen, onnew }) {
     this.onopen = onopen;
     this.find = element('input', { type: 'search', placeholder: t('find'), 'aria-label': t('Find netlists') });
     this.list = element('div', { class: 'cards' });
     this.dialog = element('dialog', { class: 'gallery', 'aria-labelledby': 'gallery-title' },
       element('div', { class: 'dialog-head' }, element('h2', { id: 'gallery-title' }, t('Gallery')), this.find,
+        element('button', { type: 'button', onclick: () => (this.dialog.close(), onnew()) }, t('New scene')),
         element('button', { type: 'button', onclick: () => this.dialog.close(), 'aria-label': t('Close') }, '✕')),
       (this.nothing = element('p', { class: 'note', role: 'status' })), this.list);
     this.find.addEventListener('input', () => this.filter());

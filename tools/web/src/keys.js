@@ -8,7 +8,7 @@ export function listenToKeys({ save, acts }) {
       return;
     }
     const inField = event.target.closest?.('input:not([type=range], [type=radio], [type=checkbox]), textarea, select, .cm-editor, dialog') || (event.key === ' ' && event.target.closest?.('button, summary, input'));
-    if (event.target.closest?.('.cm-editor') && event.key === 'Escape') event.target.blur();
+    if (event.target.closest?.('.cm-editor') && event.key === 'Escape' && !event.defaultPrevented) event.target.blur();
     if (inField || event.ctrlKey || event.metaKey || event.altKey || !Object.hasOwn(acts, event.key.toLowerCase())) return;
     event.preventDefault();
     acts[event.key.toLowerCase()]();

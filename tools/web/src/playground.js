@@ -5,12 +5,14 @@ import './playground.css';
 import './motion.css';
 import './presentation.css';
 import { Animation } from './animation.js';
+import { Drawing } from './drawing.js';
 import { element, schematicOf } from './dom.js';
 import { Editor } from './editor.js';
 import { choices } from './choices.js';
 import { DrawingView } from './drawing-view.js';
+import { assistance } from './completion.js';
 import { Files } from './files.js';
-import { firstScene } from './first-scene.js';
+import { emptyScene, firstScene } from './first-scene.js';
 import { Folds } from './folds.js';
 import { helpDialog } from './help.js';
 import { listenToKeys } from './keys.js';
@@ -39,7 +41,11 @@ class Playground {
     this.build(host);
     this.editor = new Editor(this.parts.editor, {
       onchange: (text, typed) => this.edited(text, typed),
-      onmove: (changes) => this.sliders?.move(changes),
+      onmove: (changes) => {
+        this.sliders?.move(changes);
+        this.drawing?.inspector.move(changes);
+      },
+      extensions: assistance(() => this.drawing),
     });
     this.sliders = new Sliders(this.parts.sliders, this.editor);
     this.traces = new Traces(() => this.showPlots());
@@ -52,6 +58,7 @@ class Playground {
       onopen: (file) => this.files.openFile(file, true, true),
       onleave: (file) => this.files.openFile(file, true),
     });
+    this.drawing = new Drawing(this, { drawing: this.parts.drawing, bar: this.parts.draw, cards: this.parts.inspector });
     const { presentation } = this;
     listenToKeys({
       save: () => this.files.save(),
@@ -93,6 +100,7 @@ class Playground {
     this.themeButton = button('◐', switchTheme, { 'aria-label': t('Light or dark'), title: t('Light or dark') });
     const bar = element('header', { class: 'bar' }, this.title, element('nav', { class: 'actions', 'aria-label': t('Actions') },
       button(t('Gallery'), () => this.files.gallery.open()),
+      button(t('New'), () => this.beginAnew(), { title: t('An empty scene to draw in') }),
       menu(t('Save'), () => this.files.saves()),
       menu(t('Export'), () => this.files.exports()),
       button(t('Link'), () => this.files.copyLink()),
@@ -103,11 +111,11 @@ class Playground {
     host.append(bar, element('main', { class: 'desk' },
       box('editor', t('Netlist'), this.choice, part('editor'), part('mistakes')),
       // Before the stage: that is the order of the Tab key.
-      box('sliders', t('Sliders'), part('sliders')),
+      box('sliders', t('Sliders'), part('inspector', 'section'), part('sliders')),
       element('div', { class: 'stage' },
         element('div', { class: 'view' },
           (this.lesson = box('lesson', t('Question'))),
-          box('schematic', t('Schematic'), part('drawing'), part('animation')),
+          box('schematic', t('Schematic'), part('draw'), part('drawing'), part('animation')),
           box('plots', t('Plots'), this.status, part('plots'))),
         box('more', t('More'), part('sections')))));
     this.view = new DrawingView(this.parts.drawing);
@@ -151,6 +159,12 @@ class Playground {
     if (lesson) this.course.begin(scenes[0]);
   }
 
+  beginAnew() {
+    this.files.leave();
+    this.begin({ scenes: [{ text: emptyScene, file: 'scene.toml' }] });
+    this.drawing.switch(true);
+  }
+
   // Texts and runs.
 
   // `version` is that of the file of the folder that has this text, or has the text `opened`, from which this one was made.
@@ -173,12 +187,14 @@ class Playground {
     this.view.attach();
     this.parts.animation.hidden = true;
     this.drawn = null;
+    this.drawing.clear();
     this.showTitle('');
     this.showLesson({});
   }
 
   wasRead(variant, data, read) {
     if (variant !== this.current || read !== variant.text) return;
+    this.drawing.known(data.scene, read);
     if (variant.fresh) variant.first = data.scene.sliders.map((knob) => ({ ...knob }));
     this.sliders.show(data.scene.sliders, variant.fresh, variant.first);
     if (variant.fresh) this.showSchematic(data.scene);
@@ -191,6 +207,7 @@ class Playground {
     this.showBusy();
     this.folds.stop();
     this.files.changed();
+    this.drawing?.follow();
     clearTimeout(this.typing);
     if (typed) this.typing = setTimeout(() => variant.runner.run(text, variant.file), typing);
     else variant.runner.run(text, variant.file);
@@ -200,6 +217,13 @@ class Playground {
     const isCurrent = variant === this.current;
     if (complete) variant.answered = text;
     this.showBusy();
+    if (complete && isCurrent && data.mistakes.length === 1 && this.drawing.isEmpty) {
+      // That there are no elements is no mistake of a scene that has just been begun.
+      this.showMistakes({ mistakes: [] }, text === variant.text);
+      this.parts.plots.hidden = true;
+      this.say(t('Nothing to run yet: choose an element, then click where its ends go.'));
+      return;
+    }
     if (complete && isCurrent) this.showMistakes(data, text === variant.text);
     if (!data.scene) {
       variant.stale = true;
@@ -275,6 +299,7 @@ class Playground {
     if (scene.schematic === this.drawn) return;
     this.drawn = scene.schematic;
     this.parts.drawing.replaceChildren(schematicOf(scene));
+    this.drawing.attach(scene);
     this.view.attach();
   }
 
@@ -289,6 +314,7 @@ class Playground {
 
   showPlots() {
     const several = this.variants.length > 1;
+    this.parts.plots.hidden = false;
     this.traces.offer(this.current);
     const now = this.variants.map(({ label, data, text, shown, file }) => ({ label: several ? label : this.traces.all.length ? t('now') : '', data, text: shown ?? text, file }));
     this.plots.show([...now, ...this.traces.all]);
@@ -305,6 +331,7 @@ class Playground {
   }
 
   showMistakes(data, isNew) {
+    if (isNew) this.drawing.told(data.mistakes);
     if (isNew) this.editor.mark([...data.mistakes, ...(data.failed?.line ? [{ ...data.failed, severity: 'error' }] : [])]);
     this.parts.mistakes.replaceChildren(...data.mistakes.map(({ severity, line, column, message, hint }) =>
       element('button', { type: 'button', class: `mistake ${severity}`, onclick: () => line && this.editor.go(line, column) },
@@ -356,6 +383,7 @@ class Playground {
     this.editor.load(text);
     this.clear();
     if (data.scene) {
+      this.drawing.known(data.scene, shown);
       if (shown === text) this.sliders.show(data.scene.sliders, true, this.current.first);
       this.showScene(data);
       this.showMistakes(data, true);

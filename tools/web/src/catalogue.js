@@ -1,0 +1,49 @@
+// The element types that a netlist can name, as rheonet describes them: see tools/report/messages.hpp.
+import { catalogue as ask } from './api.js';
+import { t } from './messages.js';
+
+// The groups that rheonet tells the types by, in the order in which one builds, as the page calls them.
+export const groupNames = () => ({ 'At a node': t('At a node'), 'Between two nodes': t('Between two nodes'), Transmissions: t('Transmissions'), Signals: t('Signals') });
+
+class Catalogue {
+  constructor({ types, schema }) {
+    this.types = types;
+    this.schema = schema;
+    this.byName = new Map(types.flatMap((type) => [[type.type.translation, type], [type.type.rotation, type]]));
+  }
+
+  find(name) {
+    return this.byName.get(name) ?? null;
+  }
+
+  // Types by their groups.
+  get groups() {
+    const groups = new Map(Object.keys(groupNames()).map((name) => [name, []]));
+    for (const type of this.types) groups.set(type.group, [...(groups.get(type.group) ?? []), type]);
+    return groups;
+  }
+
+  // Pairs of a name and a value in TOML with which an element of this type can begin.
+  firstValues({ parameters }, domain) {
+    return parameters.filter(({ begins }) => begins).map(({ name, first }) => [name[domain], first[domain]]);
+  }
+
+  // What a signal may be: its shapes, each with the other keys that it needs.
+  get shapes() {
+    const { properties, oneOf, dependentRequired } = this.signalTable;
+    return oneOf.map(({ required: [name] }) => ({ name, description: properties[name].description, needs: dependentRequired[name] ?? [] })).filter(({ name }) => name !== 'table');
+  }
+
+  get signalTable() {
+    return this.schema.$defs.signal.anyOf.find(({ properties }) => properties?.sine);
+  }
+}
+
+let known = null;
+export function catalogue() {
+  known ??= ask().then((message) => new Catalogue(message)).catch((error) => {
+    known = null; // the next one who asks tries again
+    throw error;
+  });
+  return known;
+}

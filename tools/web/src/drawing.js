@@ -1,0 +1,344 @@
+// Drawing by mouse, touch or keyboard: what is done in the schematic becomes a change of the netlist, which the schematic then follows.
+import './drawing.css';
+import { catalogue } from './catalogue.js';
+import { element } from './dom.js';
+import { Handles } from './handles.js';
+import { Inspector } from './inspector.js';
+import { t } from './messages.js';
+import { NetworkText } from './network-text.js';
+import { Palette } from './palette.js';
+
+// The schematic before there is an element: ground alone.
+const emptyPicture = () => `<svg viewBox="0 0 320 90" class="empty-picture" fill="none" stroke="currentColor" stroke-width="1.4" aria-label="${t('Empty schematic')}">
+<path class="ground" d="M290 20V70" stroke-width="2.2"/><path d="M290 24l7 6M290 32l7 6M290 40l7 6M290 48l7 6M290 56l7 6M290 64l7 6" stroke-width="0.8"/></svg>`;
+const groundAlone = { elements: [], joints: [{ element: '', node: 'ground', x: 290, y: 45 }] };
+
+export class Drawing {
+  // `desk`: the playground; `drawing`: where the schematic is; `bar`: the tools above it; `cards`: where cards are shown.
+  constructor(desk, { drawing, bar, cards }) {
+    this.desk = desk;
+    this.host = drawing;
+    this.netlist = null;
+    this.scene = null;
+    this.mistakes = [];
+    this.placing = null;
+    this.handles = new Handles(drawing, {
+      onpick: (target, byKey, event) => this.pick(target, byKey, event),
+      onconnect: (name, from, target) => this.connect(name, from, target),
+      onremove: (name) => this.remove(name),
+    });
+    this.inspector = new Inspector(this, cards);
+    this.build(bar);
+    document.addEventListener('keydown', (event) => this.key(event));
+  }
+
+  build(bar) {
+    const button = (text, act, extra = {}) => element('button', { type: 'button', onclick: act, ...extra }, text);
+    this.toggle = button(t('Draw'), () => this.switch(), { 'aria-pressed': 'false' });
+    this.tools = element('span', { class: 'drawing-tools', hidden: true },
+      button('↶', () => this.desk.editor.undo(), { 'aria-label': t('Undo'), title: t('Undo (Ctrl Z)') }),
+      button('↷', () => this.desk.editor.redo(), { 'aria-label': t('Redo'), title: t('Redo (Ctrl Y)') }),
+      button(t('Run …'), () => this.inspector.showRun(), { title: t('Title, length of the run, rows, what is recorded') }));
+    this.prompt = element('div', { class: 'prompt', role: 'group', 'aria-label': t('What to do in the schematic'), hidden: true });
+    const palette = element('div', { class: 'palette', role: 'group', 'aria-label': t('Element types'), hidden: true });
+    this.palette = new Palette(palette, { onchoose: (type) => this.begin(type), ondrop: (type, x, y) => this.drop(type, x, y) });
+    bar.append(this.toggle, this.tools);
+    this.host.before(palette, this.prompt);
+  }
+
+  async switch(on = !this.isOn) {
+    this.isOn = on;
+    this.toggle.setAttribute('aria-pressed', String(on));
+    this.tools.hidden = this.palette.host.hidden = this.prompt.hidden = !on;
+    this.host.classList.toggle('drawn-in', on);
+    this.host.closest('.box').classList.toggle('is-drawing', on);
+    this.cancel();
+    await this.load();
+    this.follow();
+    this.attach();
+  }
+
+  async load() {
+    try {
+      this.catalogue ??= await catalogue();
+    } catch (error) {
+      this.desk.answer(t('The element types cannot be had: {why}', { why: error.message }), true);
+    }
+    return this.catalogue;
+  }
+
+  get domain() {
+    return this.netlist?.root.at('domain')?.plain === 'rotation' ? 'rotation' : 'translation';
+  }
+
+  // The unit system at a node, which may differ from that of the scene.
+  domainAt(node) {
+    return this.scene?.elements.find(({ a, b }) => node !== 'ground' && (a === node || b === node))?.domain ?? this.domain;
+  }
+
+  // What rheonet has read last: of the text as it is if `isNew`.
+  known(scene, text) {
+    this.scene = scene;
+    this.sceneText = text;
+    this.mistakes = [];
+    this.follow();
+  }
+
+  get isNew() {
+    return Boolean(this.scene) && this.sceneText === this.desk.editor.text;
+  }
+
+  // Mistakes of the text as it is.
+  told(mistakes) {
+    this.mistakes = mistakes;
+    this.follow();
+  }
+
+  // Another scene comes.
+  clear() {
+    this.scene = this.sceneText = this.lastGood = null;
+    this.mistakes = [];
+    this.inspector.close();
+    this.cancel();
+  }
+
+  // There is a network to show, or at least a text of one.
+  get isEmpty() {
+    return this.read() && this.netlist.elementNames.length === 0;
+  }
+
+  // Reads the text as it is now; whether it can be read.
+  read() {
+    const { text } = this.desk.editor;
+    if (this.netlist?.text === text) return true;
+    try {
+      this.lastGood = this.netlist = new NetworkText(text);
+      this.fault = null;
+      return true;
+    } catch (error) {
+      this.netlist = null;
+      this.fault = error;
+      return false;
+    }
+  }
+
+  // The network as it was read last, also while the text is no TOML for the moment.
+  get lastRead() {
+    if (!this.lastGood && this.sceneText) this.lastGood = new NetworkText(this.sceneText);
+    return this.lastGood;
+  }
+
+  // The schematic is another one.
+  attach(scene = this.scene) {
+    const svg = this.host.querySelector('.schematic svg');
+    if (this.isOn && this.isEmpty) {
+      this.desk.drawn = null;
+      this.host.innerHTML = emptyPicture();
+      this.handles.attach(this.host.firstElementChild, groundAlone);
+    } else if (svg && scene) {
+      this.handles.attach(svg, scene, this.isOn);
+      this.desk.view.attach(); // it may be wider now
+      this.handles.show(this.inspector.target);
+    }
+  }
+
+  // The text has changed, here or in the editor, or something is known of it.
+  follow() {
+    if (this.catalogue && this.read() && this.isOn) this.palette.show(this.catalogue, this.domain, this.ownTypes);
+    if (this.isOn && this.isEmpty && this.host.querySelector('.schematic')) this.attach();
+    if (this.catalogue) this.inspector.follow();
+  }
+
+  // Models and laws of this netlist; how many nodes an instance has.
+  get ownTypes() {
+    if (!this.lastRead) return [];
+    const { root } = this.lastRead;
+    const laws = [...(root.at('laws')?.entries.values() ?? [])].map(({ name, value }) => [name, value.at('summary')?.plain ?? t('a law of this netlist'), 2]);
+    const models = [...(root.at('models')?.entries.values() ?? [])].map(({ name, value }) => [name, t('a model of this netlist'), value.at('ports')?.items.length ?? 0]);
+    return [...laws, ...models];
+  }
+
+  // One step of undo.
+  edit(changes) {
+    if (changes.length) this.desk.editor.edit(changes);
+  }
+
+  // Says why nothing can be changed; whether that is so.
+  cannot() {
+    if (this.read()) return false;
+    this.desk.answer(t('Line {line} of the netlist is not TOML: mend it there first.', { line: this.fault.line }), true);
+    this.desk.editor.go(this.fault.line, this.fault.column + 1);
+    return true;
+  }
+
+  // Placing a new element.
+
+  portsOf(type) {
+    const known = this.catalogue.find(type);
+    if (known) return known.nodes;
+    const count = this.ownTypes.find(([name]) => name === type)?.[2] ?? 0;
+    return Array.from({ length: count }, (_, k) => `port ${k + 1}`);
+  }
+
+  begin(type) {
+    if (this.cannot()) return;
+    this.placing = { type, ports: this.portsOf(type), nodes: [] };
+    this.palette.mark(type);
+    if (this.placing.ports.length) this.ask();
+    else this.place();
+  }
+
+  drop(type, x, y) {
+    const target = this.handles.at(x, y);
+    if (!target) return;
+    this.begin(type);
+    if (this.placing) this.take(target.element ? { node: this.handles.nearestEnd(target.element, x, y) } : target);
+  }
+
+  cancel() {
+    this.placing = null;
+    this.palette.mark(null);
+    this.prompt.replaceChildren(element('span', { role: 'status' }, t('Choose an element. Click what is drawn to change it, drag an end ○ to reconnect it.')));
+    this.prompt.classList.remove('asks');
+    this.host.classList.remove('placing');
+  }
+
+  ask() {
+    const { type, ports, nodes } = this.placing;
+    const which = [t('its first node'), t('its second node'), t('its third node')][nodes.length] ?? t('its node number {number}', { number: nodes.length + 1 });
+    const port = ports[nodes.length];
+    const where = ports.length === 1 ? t('its node') : port.length > 1 && !port.startsWith('port') ? `${which} (${port})` : which;
+    const choice = (text, node) => element('button', { type: 'button', onclick: () => this.take(node ? { node } : {}) }, text);
+    const isDrive = ports.length === 1;
+    const offered = [...this.netlist.nodeNames, ...nodes.filter((node) => !this.netlist.nodeNames.includes(node)), ...(isDrive ? [] : ['ground'])].filter((node) => !nodes.includes(node));
+    this.prompt.replaceChildren(
+      element('span', { role: 'status' }, element('b', {}, type), ': ', t('click {where} in the drawing, or a free place for a new node.', { where }), ' ',
+        nodes.length ? t('From {nodes} to:', { nodes: nodes.join(', ') }) : t('Or here:'), ' '),
+      ...offered.map((node) => choice(node, node)), choice(t('new node')),
+      element('button', { type: 'button', class: 'quiet', onclick: () => this.cancel() }, t('Cancel')));
+    this.prompt.classList.add('asks');
+    this.host.classList.add('placing');
+  }
+
+  take({ node }) {
+    const { placing } = this;
+    if (this.cannot()) return;
+    const chosen = node ?? this.netlist.freshNode(placing.nodes);
+    if (placing.nodes.includes(chosen)) {
+      this.desk.answer(t('The ends of an element are at different nodes: choose another one than {node}.', { node: chosen }), true);
+      return;
+    }
+    if (chosen === 'ground' && placing.ports.length === 1) {
+      this.desk.answer(t('Ground never moves: nothing there needs a mass, a motion or a force. Choose another node.'), true);
+      return;
+    }
+    placing.nodes.push(chosen);
+    if (placing.nodes.length < placing.ports.length) this.ask();
+    else this.place();
+  }
+
+  place() {
+    const { type, nodes } = this.placing;
+    this.cancel();
+    const known = this.catalogue.find(type);
+    const domain = nodes.map((node) => this.domainAt(node)).find((each) => each !== this.domain) ?? this.domain;
+    const wiring = nodes.length > 1 ? [`between = [${nodes.map((node) => JSON.stringify(node)).join(', ')}]`] : nodes.map((node) => `at = ${JSON.stringify(node)}`);
+    const name = this.netlist.freshName(type, nodes);
+    if (known?.group === 'Signals' && known.most_inputs > 0) {
+      const inputs = this.signalsFor(known);
+      if (!inputs) return;
+      wiring.push(`in = ${known.most_inputs > 1 ? `[${inputs.join(', ')}]` : inputs[0]}`);
+    }
+    const parameters = known ? this.catalogue.firstValues(known, domain) : this.firstOfOwn(type);
+    this.edit([...this.netlist.addElement(name, type, wiring, parameters), ...this.recordOf(name, nodes)]);
+    this.inspector.show({ element: name }, true, false); // the next element goes where this one has come
+  }
+
+  // Quantities that a new block takes in, until others are chosen.
+  signalsFor({ type, least_inputs: least }) {
+    const [node] = this.netlist.nodeNames;
+    if (node) return Array(Math.max(1, least)).fill(JSON.stringify(`${node}.velocity`));
+    this.desk.answer(t('{type} takes in a signal, the velocity of a node say: add an element with a node first.', { type: type[this.domain] }), true);
+    return null;
+  }
+
+  // Parameters that a model or law of this netlist leaves without a value.
+  firstOfOwn(type) {
+    const list = (this.netlist.root.at('models', type) ?? this.netlist.root.at('laws', type))?.at('parameters');
+    return list?.kind === 'array' ? list.items.filter(({ plain }) => plain).map(({ plain }) => [plain, '1']) : [];
+  }
+
+  // What is worth plotting of a new element, where the netlist says what is recorded at all.
+  recordOf(name, nodes) {
+    const { netlist } = this;
+    const record = netlist.root.at('simulate', 'record');
+    const isFirst = netlist.elementNames.length === 0;
+    if (!isFirst && record?.kind !== 'array') return [];
+    const path = nodes.length === 0 ? `${name}.out` : nodes.length === 1 ? `${nodes[0]}.position` : `${name}.force`;
+    if (record?.items.some(({ plain }) => plain === path)) return [];
+    return netlist.append(['simulate', 'record'], JSON.stringify(path));
+  }
+
+  // Choosing and connecting.
+
+  pick(target, byKey, event) {
+    if (this.placing && !this.cannot()) {
+      const ends = target.element ? this.netlist.portsOf(target.element.split('.')[0]) : [];
+      if (target.element) this.take({ node: event ? this.handles.nearestEnd(target.element, event.clientX, event.clientY) : ends[0]?.node });
+      else this.take(target);
+      return;
+    }
+    if (!target.element && !target.node) {
+      if (this.inspector.target) this.inspector.close();
+      return;
+    }
+    this.load().then(() => !this.cannot() && this.inspector.show(target, byKey));
+  }
+
+  connect(name, from, target) {
+    if (this.cannot()) return;
+    const port = this.netlist.portsOf(name).find(({ node }) => node === from);
+    if (!port) {
+      this.desk.answer(t('The ends of {name} are where its model, group or repetition puts them: change them in the netlist.', { name }), true);
+      return;
+    }
+    const node = target.node ?? this.netlist.freshNode();
+    if (node === from) return;
+    if (this.netlist.portsOf(name).some((other) => other.node === node)) {
+      this.desk.answer(t('{name} has its other end at {node} already.', { name, node }), true);
+      return;
+    }
+    if (node === 'ground' && port.key === 'at') {
+      this.desk.answer(t('Ground never moves: what acts at a node goes to another one.'), true);
+      return;
+    }
+    this.load().then(() => {
+      this.edit(this.netlist.connect(port.path, node));
+      this.inspector.show({ element: name });
+    });
+  }
+
+  remove(name) {
+    if (this.cannot()) return;
+    if (!this.netlist.element(name)) {
+      this.desk.answer(t('{name} is made by a model, a group or a repetition: change that in the netlist.', { name }), true);
+      return;
+    }
+    this.inspector.close();
+    this.edit(this.netlist.removeElement(name));
+    this.desk.answer(t('Deleted {name}. Undo brings it back.', { name }));
+  }
+
+  key(event) {
+    if (event.key === 'Escape' && !event.target.closest?.('dialog, .cm-editor, .menu')) {
+      if (this.placing) this.cancel();
+      else if (this.inspector.target) this.inspector.close();
+    }
+    if (!(event.ctrlKey || event.metaKey) || event.altKey || event.target.closest?.('.cm-editor, input, textarea, dialog')) return;
+    const key = event.key.toLowerCase();
+    if (key === 'z' && !event.shiftKey) this.desk.editor.undo();
+    else if (key === 'y' || (key === 'z' && event.shiftKey)) this.desk.editor.redo();
+    else return;
+    event.preventDefault();
+  }
+}

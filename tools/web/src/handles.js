@@ -1,0 +1,180 @@
+// What can be pointed at in the schematic: its elements, its nodes, and the ends of the elements, which can be dragged to other nodes.
+import { t } from './messages.js';
+
+const namespace = 'http://www.w3.org/2000/svg';
+
+function shape(tag, attributes) {
+  const node = document.createElementNS(namespace, tag);
+  for (const [key, value] of Object.entries(attributes)) node.setAttribute(key, value);
+  return node;
+}
+
+export class Handles {
+  // onpick(target): something was clicked, or chosen with Enter; onconnect(element, from, target): the end of an element that was at
+  // the node `from` was dropped on a target; onremove(element): the Delete key. A target is { element }, { node }, or {} for a free
+  // place.
+  constructor(host, { onpick, onconnect, onremove }) {
+    this.host = host;
+    this.onpick = onpick;
+    this.onconnect = onconnect;
+    this.onremove = onremove;
+    this.place = 0; // which handle the Tab key reaches
+    this.buttons = [];
+    // Before what moves the whole drawing.
+    host.addEventListener('pointerdown', (event) => this.down(event), true);
+    host.addEventListener('click', (event) => this.click(event));
+  }
+
+  // `ground`: there is to be ground, also where nothing leads there yet.
+  attach(svg, scene, ground = false) {
+    this.svg = svg;
+    svg.querySelector('.handles')?.remove();
+    let { joints } = scene;
+    if (ground && !svg.querySelector('path.ground')) joints = [...joints, this.addGround(svg)];
+    else if (svg.querySelector('.added-ground')) joints = [...joints, this.ground];
+    // A picture would hide what is in it from screen readers.
+    svg.setAttribute('role', 'group');
+    const layer = shape('g', { class: 'handles' });
+    const walls = [...svg.querySelectorAll('path.ground')].map((path) => ({ path, node: 'ground' }));
+    const wires = [...svg.querySelectorAll('path.node')].map((path) => ({ path, node: path.dataset.node }));
+    for (const { path, node } of [...walls, ...wires]) layer.append(shape('path', { class: 'wire-handle', d: path.getAttribute('d'), 'data-at': node }));
+    for (const part of svg.querySelectorAll('[data-element]')) layer.append(this.overElement(part, scene));
+    const seen = new Set();
+    for (const { element, node, x, y } of joints) {
+      const [cx, cy] = this.besideLabel(svg, element, x, y);
+      const handle = shape('circle', { class: 'end-handle', cx, cy, r: 4.5, 'data-at': node, 'data-end-of': element });
+      if (seen.has(node)) handle.setAttribute('aria-hidden', 'true');
+      else this.makeButton(handle, node === 'ground' ? 'ground' : t('node {node}', { node }));
+      seen.add(node);
+      layer.append(handle);
+    }
+    this.line = shape('path', { class: 'drag-line', visibility: 'hidden' });
+    layer.append(this.line);
+    svg.append(layer);
+    this.buttons = [...layer.querySelectorAll('[role=button]')];
+    this.rove(Math.min(this.place, this.buttons.length - 1));
+    layer.addEventListener('keydown', (event) => this.key(event));
+    layer.addEventListener('focusin', (event) => this.rove(this.buttons.indexOf(event.target)));
+  }
+
+  // Beside the drawing, which becomes that much wider.
+  addGround(svg) {
+    const { width, height } = svg.viewBox.baseVal;
+    const [room, y] = [46, height / 2];
+    svg.setAttribute('viewBox', `0 0 ${width + room} ${height}`);
+    for (const side of ['minWidth', 'maxWidth']) if (svg.style[side]) svg.style[side] = `${(Number.parseFloat(svg.style[side]) * (width + room)) / width}px`;
+    const x = width + room - 24;
+    const group = shape('g', { class: 'added-ground', fill: 'none', stroke: 'currentColor', 'stroke-width': 1 });
+    group.append(shape('path', { class: 'ground', d: `M${x} ${y - 16}V${y + 16}`, 'stroke-width': 2.2 }), shape('path', { d: [-12, -6, 0, 6, 12].map((k) => `M${x} ${y + k}l7 5`).join('') }));
+    svg.append(group);
+    this.ground = { element: '', node: 'ground', x, y };
+    return this.ground;
+  }
+
+  overElement(part, scene) {
+    const { x, y, width, height } = part.getBBox();
+    const of = part.dataset.element;
+    const room = Math.max(0, 10 - height / 2); // a thin symbol can be hit too
+    const rect = shape('rect', { class: 'element-handle', x, y: y - room, width, height: height + 2 * room, rx: 4, 'data-of': of });
+    const type = part.getAttribute('class').split(' ')[0];
+    this.makeButton(rect, `${of}, ${scene.elements.find((each) => each.name === of)?.type ?? type}`);
+    const title = shape('title', {});
+    title.textContent = part.querySelector('title')?.textContent ?? of;
+    rect.append(title);
+    return rect;
+  }
+
+  // Not in the middle of a mass, where its name is.
+  besideLabel(svg, element, x, y) {
+    const box = svg.querySelector(`[data-element="${CSS.escape(element)}"]`)?.getBBox();
+    const isInside = box && x > box.x + 1 && x < box.x + box.width - 1 && y > box.y + 1 && y < box.y + box.height - 1;
+    return isInside ? [x, box.y + box.height] : [x, y];
+  }
+
+  makeButton(handle, label) {
+    handle.setAttribute('role', 'button');
+    handle.setAttribute('aria-label', label);
+    handle.setAttribute('tabindex', '-1');
+  }
+
+  // One of them is reached by Tab, the others by the arrow keys.
+  rove(k) {
+    if (k < 0) return;
+    this.place = k;
+    this.buttons.forEach((button, i) => button.setAttribute('tabindex', i === k ? '0' : '-1'));
+  }
+
+  key(event) {
+    const step = { ArrowRight: 1, ArrowDown: 1, ArrowLeft: -1, ArrowUp: -1 }[event.key];
+    if (step) this.buttons[(this.place + step + this.buttons.length) % this.buttons.length].focus();
+    else if (event.key === 'Enter' || event.key === ' ') this.onpick(this.targetOf(event.target), true);
+    else if (event.key === 'Delete' && event.target.dataset.of) this.onremove(event.target.dataset.of);
+    else return;
+    event.preventDefault();
+    event.stopPropagation();
+  }
+
+  targetOf(node) {
+    const handle = node?.closest?.('[data-at], [data-of]');
+    if (handle?.dataset.of) return { element: handle.dataset.of };
+    return handle ? { node: handle.dataset.at } : {};
+  }
+
+  // What is at a place of the window; null if that is not the drawing.
+  at(x, y) {
+    const node = document.elementFromPoint(x, y);
+    return node && this.host.contains(node) ? this.targetOf(node) : null;
+  }
+
+  // The end of an element that is nearest to a place of the window: its node.
+  nearestEnd(element, x, y) {
+    const away = (handle) => {
+      const box = handle.getBoundingClientRect();
+      return Math.hypot(box.x + box.width / 2 - x, box.y + box.height / 2 - y);
+    };
+    const ends = [...this.svg.querySelectorAll('.end-handle')].filter((handle) => handle.dataset.endOf === element);
+    return ends.sort((a, b) => away(a) - away(b))[0]?.dataset.at;
+  }
+
+  show(target) {
+    for (const handle of this.svg?.querySelectorAll('[data-at], [data-of]') ?? [])
+      handle.classList.toggle('chosen', Boolean((target?.element && handle.dataset.of === target.element) || (target?.node && handle.dataset.at === target.node)));
+  }
+
+  focus(target) {
+    this.buttons.find(({ dataset }) => (target.element ? dataset.of === target.element : dataset.at === target.node))?.focus();
+  }
+
+  click(event) {
+    if (this.dragged) this.dragged = false;
+    else this.onpick(this.targetOf(event.target), false, event);
+  }
+
+  down(event) {
+    const end = event.target.closest('.end-handle');
+    if (!end || event.button !== 0) return;
+    event.preventDefault();
+    const { svg, line } = this;
+    const inDrawing = (x, y) => new DOMPoint(x, y).matrixTransform(svg.getScreenCTM().inverse());
+    const begin = { x: event.clientX, y: event.clientY };
+    const move = ({ clientX, clientY }) => {
+      if (!this.dragged && Math.hypot(clientX - begin.x, clientY - begin.y) < 6) return;
+      this.dragged = true;
+      const { x, y } = inDrawing(clientX, clientY);
+      line.setAttribute('d', `M${end.getAttribute('cx')} ${end.getAttribute('cy')}L${x} ${y}`);
+      line.setAttribute('visibility', 'visible');
+    };
+    const finish = ({ type, clientX, clientY }) => {
+      for (const kind of ['pointermove', 'pointerup', 'pointercancel']) removeEventListener(kind, kind === 'pointermove' ? move : finish);
+      line.setAttribute('visibility', 'hidden');
+      if (!this.dragged) return;
+      // The click that follows at the same place is none; there is not always one.
+      setTimeout(() => (this.dragged = false));
+      const target = type === 'pointerup' ? this.at(clientX, clientY) : null;
+      if (target) this.onconnect(end.dataset.endOf, end.dataset.at, target.element ? { node: this.nearestEnd(target.element, clientX, clientY) } : target);
+    };
+    addEventListener('pointermove', move);
+    addEventListener('pointerup', finish);
+    addEventListener('pointercancel', finish);
+  }
+}
