@@ -35,17 +35,17 @@ export class Folds {
     this.isExact = done?.statistics.arc_steps > 0 && done.statistics.arc_steps === done.statistics.steps;
     const compared = runs.filter((run) => run.data.hasCurves);
     this.host.replaceChildren(...[
-      compared.length > 1 ? this.fold('Differences', t('Differences'), t('Differences'), () => differencesOf(compared)) : null,
-      this.fold('What is simulated, and why', t('What is simulated, and why'), t('What is simulated, and why'), () => this.explanation()),
-      this.fold('Equations', t('Equations'), t('Equations'), () => equationsOf(scene)),
-      this.fold('Elements', t('Elements'), t('Elements'), () => elementsOf(scene)),
-      data.hasEnergy ? this.fold('Energy account', t('Energy account'), t('Energy account'), () => energyOf(data, this.charts)) : null,
-      this.fold('Events', t('Events'), t('Events'), () => eventsOf(data)),
-      done?.claims.length ? this.fold('Claims', t('Claims'), t('Claims'), () => claimsOf(data)) : null,
-      done ? this.fold('Statistics', t('Statistics'), t('Statistics'), () => statisticsOf(data)) : null,
-      done?.notes.length || data.mistakes.length ? this.fold('Notes', t('Notes'), t('Notes'), () => notesOf(data)) : null,
-      done ? this.fold('Effects', t('Effects'), t('Effects'), () => this.effects.show(this.request())) : null,
-      done ? this.fold('Price of accuracy', t('Price of accuracy'), t('Price of accuracy'), () => this.prices.show(this.request())) : null,
+      compared.length > 1 ? this.fold('Differences', t('Differences'), () => differencesOf(compared)) : null,
+      this.fold('What is simulated, and why', t('What is simulated, and why'), () => this.explanation()),
+      this.fold('Equations', t('Equations'), () => equationsOf(scene)),
+      this.fold('Elements', t('Elements'), () => elementsOf(scene)),
+      data.hasEnergy ? this.fold('Energy account', t('Energy account'), () => energyOf(data, this.charts)) : null,
+      this.fold('Events', t('Events'), () => eventsOf(data)),
+      done?.claims.length ? this.fold('Claims', t('Claims'), () => claimsOf(data)) : null,
+      done ? this.fold('Statistics', t('Statistics'), () => statisticsOf(data)) : null,
+      done?.notes.length || data.mistakes.length ? this.fold('Notes', t('Notes'), () => notesOf(data)) : null,
+      done ? this.fold('Effects', t('Effects'), () => this.effects.show(this.request())) : null,
+      done ? this.fold('Price of accuracy', t('Price of accuracy'), () => this.prices.show(this.request())) : null,
       this.fold('Sweep', t('Sweep'), () => this.sweep.show(scene, this.request())),
     ].filter(Boolean));
   }
