@@ -10,12 +10,15 @@ const [web, build, netlists, output] = process.argv.slice(2);
 const [wasm, sources] = [join(build, 'wasm'), join(build, 'sources')];
 const read = (folder, name) => readFileSync(join(folder, name), 'utf8');
 
-// The file system of the module: what its file offer gives (tools/serve/below.hpp), the pages that order the gallery, and the
+// The file system of the module: what its file offer gives (tools/serve/below.hpp), the names of netlists in the order of the gallery, and the
 // template of reports, the units, and the JSON Schema.
 const files = { '/report.html': read(web, 'report.html'), '/units.txt': read(build, 'units.txt'), '/schema.json': JSON.stringify(JSON.parse(read(build, 'schema.json'))) };
 for (const entry of readdirSync(netlists, { withFileTypes: true, recursive: true })) {
   const path = join(entry.parentPath ?? entry.path, entry.name);
-  if (entry.isFile() && /\.(toml|csv|lesson)$|^README\.md$/.test(entry.name)) files[`/netlists/${relative(netlists, path)}`] = readFileSync(path, 'utf8');
+  if (!entry.isFile() || !/\.(toml|csv|lesson)$|^README\.md$/.test(entry.name)) continue;
+  const text = readFileSync(path, 'utf8');
+  // The gallery has the order in which a page names its netlists, and needs nothing else of it.
+  files[`/netlists/${relative(netlists, path)}`] = entry.name === 'README.md' ? (text.match(/[\w-]+\.toml/g) ?? []).join('\n') : text;
 }
 
 // What the module holds besides rheonet.
