@@ -123,7 +123,7 @@ test('a netlist that is sent includes nothing from outside', async () => {
     for (const text of asked) {
       const { body } = await post({ task: 'show', text, file: 'bingham.toml' });
       const [mistakes] = messages(body);
-      assert.match(mistakes.items[0].message, /hidden, and not served|only \.toml and \.csv files are served/, name);
+      assert.match(mistakes.items[0].message, /hidden, and not served|only \.toml, \.csv and \.lesson files are served/, name);
       assert.doesNotMatch(body, /hidden words|4712/, name);
     }
   }
