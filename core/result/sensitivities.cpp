@@ -110,7 +110,7 @@ class Comparison {
     error_ = own.arc_steps == own.steps ? numerics::sensitivity_arc_error : numerics::sensitivity_tolerance;
   }
 
-  /// What is left of the fourth order shrinks with the fourth power of the change, and the share of the runs' errors grows with its inverse.
+  /// The error of the fourth order shrinks with the fourth power of the change, and the share of the runs' errors grows with its inverse.
   Sensitivity find() {
     double change = std::pow(error_, 1.0 / 5);
     std::optional<Sensitivity> best;
@@ -210,7 +210,7 @@ class Comparison {
     }
     for (std::size_t k = 0; k < records; ++k) {
       Sensitivity::Record& record = found.records[k];
-      // Of a sine the second order leaves x^2/3!, and the fourth x^4/30.
+      // For a sine the relative error of the second order is x^2/3!, and that of the fourth x^4/30.
       const double noise = error_ * scale[k] / change, truncation = record.largest > 0 ? 6 * 6 * left[k] * left[k] / (30 * record.largest) : 0;
       record.error = noise + truncation;
       if (record.largest <= noise) continue;

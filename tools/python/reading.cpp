@@ -115,7 +115,7 @@ Reading Source::read(Wanted wanted) {
                             .plotted = wanted.plotted,
                             .claims = !wanted.measures,
                             .measures = wanted.measures.value_or(std::vector<std::string>{}),
-                            .model_folders = {wanted.library.begin(), wanted.library.end()},
+                            .model_folders = {wanted.model_folders.begin(), wanted.model_folders.end()},
                             .cache = &cache_};
   return Reading(file_, text_ ? read_scene_text(*text_, file_, folder_, declarations(), options) : read_scene(file_, declarations(), options));
 }

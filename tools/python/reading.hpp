@@ -66,7 +66,7 @@ class Source {
   struct Wanted {
     std::vector<std::string> overrides;                   ///< "PATH=VALUE"
     std::optional<std::vector<std::string>> measures;     ///< in place of the file's claims, which are about the scene without changes
-    std::vector<std::string> library;                     ///< folders that `include` falls back on
+    std::vector<std::string> model_folders;               ///< folders that `include` falls back on
     std::vector<std::string> records;                     ///< in addition to those of the file
     bool plotted = false;                                 ///< what `[plot]` draws is recorded too
   };

@@ -46,7 +46,7 @@ std::vector<Sensitivity> sensitivities(const Arguments& arguments, const RunSett
   return result;
 }
 
-std::string derivative_name(const std::string& record, const std::string& path) { return fmt::format("d({})/dln({})", record, path); }
+std::string derivative_name(const std::string& record, const std::string& path) { return fmt::format("d({})/dln {}", record, path); }
 
 Summary write_with_derivatives(const Scene& scene, const std::vector<Sensitivity>& derivatives, const Arguments& arguments, RunSettings settings) {
   Scene plain = scene;

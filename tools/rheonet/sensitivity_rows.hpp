@@ -15,7 +15,7 @@ bool can_be_multiplied(const Arguments& arguments);
 /// The derivatives by each value of `--sensitivities`, in their order. Throws SimulationError.
 std::vector<Sensitivity> sensitivities(const Arguments& arguments, const RunSettings& settings);
 
-/// The column of a derivative: "d(k1.force)/dln(k1.stiffness)".
+/// The column of a derivative, without brackets at its end, in which a table may have a unit: "d(k1.force)/dln k1.stiffness".
 std::string derivative_name(const std::string& record, const std::string& path);
 
 /// Simulates, and writes the rows with the derivatives behind the records. Without rows at events: the derivatives jump there. Throws SimulationError.
