@@ -16,7 +16,7 @@ struct Sources;
 struct TomlValue;
 
 /// The text of a file; absent if it cannot be read; `why` then gives the reason. A MAT file, which ends in `.mat`, is given as CSV: a
-/// column for each vector, with its name and, in files of rheonet, its unit. Of vectors of several lengths the most frequent length counts.
+/// column for each vector, with its name and, in files of rheonet, its unit. If vectors have several lengths, those of the most frequent length are given.
 std::optional<std::string> read_text(const std::filesystem::path& file, std::string& why);
 
 /// Caches the files of a scene that is read many times. Each file is read from disk and parsed once, so that every reading sees the

@@ -343,7 +343,7 @@ class Run {
   /// Number of the cause of restarts that is no element.
   int solver() const { return static_cast<int>(network_.scene->elements.size()); }
 
-  /// Of the network or its inputs, the fastest [1/s].
+  /// The fastest rate of the network or its inputs [1/s].
   double rate_at(double t) { return std::max(system_->consistency.fastest_rate(t, horizon(t), y_, yp_), inputs_.fastest()); }
 
   /// True if causes fire again and again without a change, in less time than the network or its inputs take to change.

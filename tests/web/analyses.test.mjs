@@ -1,4 +1,4 @@
-// What takes many runs of a scene: its effects, the price of accuracy, a sweep.
+// Panels that take many runs of a scene: its effects, the price of accuracy, a sweep.
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { dirname, join } from 'node:path';

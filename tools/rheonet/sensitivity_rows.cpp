@@ -14,18 +14,20 @@ namespace rheonet::tool {
 
 namespace {
 
-ReadResult read_multiplied(const Arguments& arguments, const std::string& path, double factor) {
+ReadResult read_multiplied(const Arguments& arguments, const std::string& path, double factor, FileCache& cache) {
   ReadOptions options = options_of(arguments);
   options.overrides.push_back(fmt::format("{}*={:.17g}", path, factor));
   options.origins.push_back("--sensitivities ");
+  options.cache = &cache;
   return read_scene(arguments.scene, declarations(), options);
 }
 
 }  // namespace
 
 bool can_be_multiplied(const Arguments& arguments) {
+  FileCache cache;
   for (const std::string& path : arguments.sensitivities) {
-    ReadResult read = read_multiplied(arguments, path, 1);
+    ReadResult read = read_multiplied(arguments, path, 1, cache);
     if (read.scene) continue;
     report_all(read);
     return false;
@@ -35,9 +37,10 @@ bool can_be_multiplied(const Arguments& arguments) {
 
 std::vector<Sensitivity> sensitivities(const Arguments& arguments, const RunSettings& settings) {
   std::vector<Sensitivity> result;
+  FileCache cache;
   for (const std::string& path : arguments.sensitivities) {
     const auto multiplied = [&](double factor) {
-      ReadResult read = read_multiplied(arguments, path, factor);
+      ReadResult read = read_multiplied(arguments, path, factor, cache);
       if (read.scene) return *std::move(read.scene);
       throw SimulationError(fmt::format("`{}` cannot be changed by {:.0e} of its value: {}", path, factor - 1, read.diagnostics.front().message));
     };
