@@ -133,7 +133,7 @@ TEST_CASE("--set: a parameter that the file leaves to the command line") {
   CHECK(elements_of(with(open, {"parameters.K=3 N/m"})) == "k: spring a-b 6 0\n");
 }
 
-// Values with a unit and expressions are told from TOML before it is parsed: nothing that is TOML may be taken for one.
+// Values with a unit and expressions are recognised before TOML is parsed: no TOML value may be taken for one.
 TEST_CASE("--set: a value is TOML if it can be, and else text") {
   const auto damping = [](const std::string& value) { return with(netlist, {"parameters.B=" + value}).elements[3].values[0]; };
   for (const auto& [value, expected] : std::initializer_list<std::pair<std::string, double>>{

@@ -1,4 +1,4 @@
-// Drawing in the playground: by mouse, by keyboard, on a phone. What is done in the schematic is an edit of the netlist.
+// Drawing in the playground: by mouse, by keyboard, on a phone. Each action in the schematic is an edit of the netlist.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { netlist, redrawn, setUp, shows, stickSlip } from './desk.mjs';
@@ -161,7 +161,7 @@ test('rheonet checks what is written into a field: the card says what is wrong',
   await redrawn(page, () => write(page, 'coulomb Fc', '1.5'));
   assert.match(await line(page, 's1'), /coulomb = "1.5 N"/);
   assert.equal(await card(page).locator('.inspector-wrong p').count(), 0);
-  // What is no longer given goes from the text.
+  // A value that is no longer given goes from the text.
   await redrawn(page, () => write(page, 'breakaway Fs', ''));
   assert.equal(await line(page, 's1'), 's1 = { type = "slider", between = ["block", "ground"], coulomb = "1.5 N" }');
   await close();
