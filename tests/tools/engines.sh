@@ -106,7 +106,7 @@ slurmd -D -N localhost >slurmd.log 2>&1 &
 daemons+=($!)
 idle=no
 for _ in $(seq 100); do
-  if sinfo -h -o %T 2>/dev/null | grep -q idle; then idle=yes; break; fi
+  if grep -q idle <<<"$(sinfo -h -o %T 2>/dev/null)"; then idle=yes; break; fi
   sleep 0.2
 done
 [ "$idle" = yes ] || { tail -n 5 munged.out slurmctld.log slurmd.log; skip "Slurm does not start here"; }

@@ -18,8 +18,8 @@ if [ -s "$build/tools/web/report.html" ]; then
   grep -q '"bomFormat": "CycloneDX"' "$documents/sbom.cdx.json"
   # Each package that is listed has its licence, with a copyright.
   for package in $(sed -n 's/^ *"name": "\([^"]*\)",$/\1/p' "$documents/sbom.cdx.json" | grep -Ev '^rheonet$|\.woff2$'); do
-    sed -n "/^$(printf %s "$package" | sed 's,/,\\/,g') [0-9.]* (/,/^----/p" "$documents/NOTICE" | grep -iq copyright ||
-      { echo "no licence of $package"; exit 1; }
+    licence=$(sed -n "/^$(printf %s "$package" | sed 's,/,\\/,g') [0-9.]* (/,/^----/p" "$documents/NOTICE")
+    grep -iq copyright <<<"$licence" || { echo "no licence of $package"; exit 1; }
   done
 fi
 

@@ -32,7 +32,7 @@ fi
 [ "$(id -u)" -eq 0 ] || skip "only root makes a bare Debian"
 command -v debootstrap >/dev/null || skip "debootstrap is missing (Debian: debootstrap)"
 # From where this machine has its own packages.
-mirror=$(apt-get indextargets --format '$(REPO_URI)' 'Identifier: Packages' | head -n 1)
+mirror=$(apt-get indextargets --format '$(REPO_URI)' 'Identifier: Packages' | sed -n 1p)
 suite=$(. /etc/os-release && echo "$VERSION_CODENAME")
 debootstrap --variant=minbase "$suite" "$folder/root" ${mirror:+"$mirror"} >"$folder/log" 2>&1 || { tail "$folder/log"; exit 1; }
 mount -t proc proc "$folder/root/proc" 2>"$folder/log" || skip "/proc cannot be mounted"  # by which the program finds its library

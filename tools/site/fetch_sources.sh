@@ -10,7 +10,7 @@ fetch() {
   shift 4
   if [ -e "$folder/$name/.$sum" ]; then return; fi
   local address
-  address=$(apt-get download --print-uris "$package" | sed -n "s/^'\([^']*\)\/[^/']*'.*/\1/p" | head -n 1)
+  address=$(apt-get download --print-uris "$package" | sed -n "s/^'\([^']*\)\/[^/']*'.*/\1/p" | sed -n 1p)
   if [ -z "$address" ]; then
     echo "apt does not know the package $package" >&2
     return 1
