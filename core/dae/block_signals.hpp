@@ -59,8 +59,8 @@ class BlockSignals {
   bool breaks(double t, const DelayHistory& history) const;
 
   // --- States and sensor values, with rates.
-  std::vector<Dual> state;   ///< of each block with a state, in the order of the blocks
-  std::vector<Dual> sensed;  ///< of each sensor
+  std::vector<Dual> state;   ///< For each block with a state, in the order of the blocks.
+  std::vector<Dual> sensed;  ///< For each sensor.
   int state_of(int block) const { return state_of_[at(block)]; }
   std::size_t states() const { return state_blocks_.size(); }
   int block_of_state(std::size_t state) const { return state_blocks_[state]; }
@@ -106,8 +106,8 @@ class BlockSignals {
   // --- Limiters and functions. Each finite bound and each switch has an event.
   struct Limit {
     int block;
-    bool upper;              ///< of a limiter
-    std::size_t which = 0;   ///< of the switches of a function
+    bool upper;              ///< For a limiter.
+    std::size_t which = 0;   ///< Number of the switch of a function.
   };
   const std::vector<Limit>& limits() const { return limits_; }
   /// Positive while the limiter or switch stays on its side. Unit: that of the limiter's output, or of the values that the switch compares.
@@ -128,7 +128,7 @@ class BlockSignals {
   void refuse_undefined(double since = 0) const;
 
   // --- Blocks that sample.
-  std::vector<int> due(double t) const;  ///< blocks with a sample at t
+  std::vector<int> due(double t) const;  ///< Blocks with a sample at t.
   /// Samples that are due since `enter` take their input as it is now, which may jump at the same time: until `hold` they can be taken again.
   void take_samples();
   /// Ends that. Returns false, and ends nothing, if an input has jumped by more than round-off since its sample was taken. `round`: how many
@@ -158,7 +158,7 @@ class BlockSignals {
   Dual source(const Blocks::Input& in) const { return in.from_block ? out_[at(in.index)] : sensed[at(in.index)]; }
   Dual of_function(int block, bool held);
   static double quantised(const BlockLaw& law, double u);
-  double sampled(const Blocks::Block& block) const { return quantised(block.law, input(block).value); }  ///< a sample of the present input
+  double sampled(const Blocks::Block& block) const { return quantised(block.law, input(block).value); }  ///< A sample of the present input.
   void find_dependence();
   bool feeds_motion(int block) const;
   void find_longest_step(const Network& network, const Structure& classified);
@@ -169,7 +169,7 @@ class BlockSignals {
     const DelayHistory& history;
     double now, aside;
     int atom = -1;
-    bool present = false;  ///< the value found depends on the present
+    bool present = false;  ///< The value found depends on the present.
     Dual seen(double value, double rate) const { return atom < 0 ? Dual(value, rate) : Dual(value); }
   };
   Dual earlier(int block, double t, Look& look) const;
@@ -184,14 +184,14 @@ class BlockSignals {
 
   const Network* network_;
   const Blocks* blocks_;
-  std::vector<char> heavy_;  ///< of each sensor: it measures the velocity of a mass
-  std::vector<int> run_;           ///< blocks whose outputs follow from states and inputs, in the order of evaluation
-  std::vector<int> state_of_;      ///< of each block, -1
+  std::vector<char> heavy_;  ///< For each sensor: it measures the velocity of a mass.
+  std::vector<int> run_;           ///< Blocks whose outputs follow from states and inputs, in the order of evaluation.
+  std::vector<int> state_of_;      ///< For each block, -1.
   std::vector<int> state_blocks_;
   std::vector<double> delays_;
   double reach_ = 0, longest_step_ = std::numeric_limits<double>::infinity();
-  std::vector<std::deque<Stretch>> generated_;  ///< of each block: pieces of a generator's signal, as far back as reach_
-  std::vector<std::deque<Stretch>> moved_;      ///< of each sensor: pieces of a prescribed motion
+  std::vector<std::deque<Stretch>> generated_;  ///< For each block: pieces of a generator's signal, as far back as reach_.
+  std::vector<std::deque<Stretch>> moved_;      ///< For each sensor: pieces of a prescribed motion.
   std::vector<int> state_channel_, sensor_channel_;
   std::size_t channel_count_ = 0;
   std::vector<DelayHistory::Known> remembered_;
@@ -206,29 +206,29 @@ class BlockSignals {
   struct Taken { double t, value; };
   struct Sampler {
     int block;
-    double number;            ///< a whole number: the last sample was at the first time not before this multiple of the period
-    TimePoint next;           ///< time of the next sample; at first the start
-    bool taking = false;      ///< a sample is due, and still follows the input
-    double value = 0;         ///< of the last sample
-    double largest = 0;       ///< magnitude of the samples so far
-    std::deque<Taken> taken;  ///< samples, as far back as reach_
+    double number;            ///< A whole number: the last sample was at the first time not before this multiple of the period.
+    TimePoint next;           ///< Time of the next sample; at first the start.
+    bool taking = false;      ///< A sample is due, and still follows the input.
+    double value = 0;         ///< The last sample.
+    double largest = 0;       ///< Magnitude of the samples so far.
+    std::deque<Taken> taken;  ///< Samples, as far back as reach_.
   };
-  std::vector<int> sampler_of_;           ///< of each block: index into samplers_, or -1
+  std::vector<int> sampler_of_;           ///< For each block: index into samplers_, or -1.
   std::vector<Sampler> samplers_;
-  std::vector<int> function_of_;          ///< of each block: index into functions_, or -1
+  std::vector<int> function_of_;          ///< For each block: index into functions_, or -1.
   std::vector<FunctionBlock> functions_;
-  int undefined_ = -1;                    ///< block without a finite value
-  double undefined_at_ = 0;               ///< when [s]
+  int undefined_ = -1;                    ///< Block without a finite value.
+  double undefined_at_ = 0;               ///< When [s].
   mutable std::vector<double> slope_, rate_slope_;
-  mutable bool stale_ = false;            ///< derivatives of functions have changed since they were found
+  mutable bool stale_ = false;            ///< Derivatives of functions have changed since they were found.
   std::vector<double> delay_slope_;
   std::vector<char> depends_, couples_, rate_couples_;
-  std::vector<char> follows_;       ///< as depends_, between samples
-  std::vector<char> present_;       ///< of each block: a delay that depends on the present too
+  std::vector<char> follows_;       ///< As depends_, between samples.
+  std::vector<char> present_;       ///< For each block: a delay that depends on the present too.
   struct Pair { std::size_t delay, atom; };
-  std::vector<Pair> pairs_;         ///< delays, and the atoms that they may depend on at present
-  double now_ = 0, aside_ = 0;      ///< time of the last `evaluate_time`, and offset to the side of it that was meant [s]
-  std::vector<double> before_run_;  ///< output of each block before the run, if that began in a steady state
+  std::vector<Pair> pairs_;         ///< Delays, and the atoms that they may depend on at present.
+  double now_ = 0, aside_ = 0;      ///< Time of the last `evaluate_time`, and offset to the side of it that was meant [s].
+  std::vector<double> before_run_;  ///< Output of each block before the run, if that began in a steady state.
 };
 
 }  // namespace rheonet

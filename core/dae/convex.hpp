@@ -24,10 +24,10 @@ struct Conductance;
 class ConvexNetwork {
  public:
   struct Law {
-    double low = 0, high = 0;          ///< bounds of the force at w = 0
-    double backward = 0, forward = 0;  ///< slopes for w < 0 and w > 0
-    double rounding = 0;               ///< a magnitude: the force is known to its round-off
-    bool of_change = false;            ///< w is counted from the start values, not from 0
+    double low = 0, high = 0;          ///< Bounds of the force at w = 0.
+    double backward = 0, forward = 0;  ///< Slopes for w < 0 and w > 0.
+    double rounding = 0;               ///< A magnitude: the force is known to its round-off.
+    bool of_change = false;            ///< w is counted from the start values, not from 0.
     /// If set: force and slope for w != 0, in place of low + backward w and high + forward w.
     std::function<double(double w, double& slope)> beyond = {};
   };
@@ -56,8 +56,8 @@ class ConvexNetwork {
 
   enum class Outcome {
     solved,
-    unbounded,  ///< no x balances the applied forces, however large
-    undecided,  ///< round-off prevents a decision
+    unbounded,  ///< No x balances the applied forces, however large.
+    undecided,  ///< round-off prevents a decision.
   };
   Outcome solve();
 
@@ -90,13 +90,13 @@ class ConvexNetwork {
   struct Branch {
     int a, b;
     Law law;
-    bool jumps;           ///< low < high; never a law of the change
-    double weak = 0;      ///< regularising slope, where the law is flat: makes the answer unique
-    double w = 0;         ///< argument of the law
+    bool jumps;           ///< Low < high; never a law of the change.
+    double weak = 0;      ///< Regularising slope, where the law is flat: makes the answer unique.
+    double w = 0;         ///< Argument of the law.
     bool stuck = false;
-    bool apart = false;  ///< w != 0 before the last step
-    int side = 1;  ///< the bound at which the force is while the branch slips and w is 0
-    int before = 0;  ///< see was_apart; 0: no guess
+    bool apart = false;  ///< w != 0 before the last step.
+    int side = 1;  ///< The bound at which the force is while the branch slips and w is 0.
+    int before = 0;  ///< See was_apart; 0: no guess.
   };
   struct Equation {
     std::array<int, 3> node;
@@ -132,7 +132,7 @@ class ConvexNetwork {
   bool stick_where_idle();
   void merge();
   struct Sums {
-    std::vector<double> laws, all;  ///< of forces at each column, without and with those of equations
+    std::vector<double> laws, all;  ///< Of forces at each column, without and with those of equations.
   };
   bool balanced(Sums& sums) const;
   bool direction_of_descent(const std::vector<double>& sum_of_laws, std::vector<double>& d, bool secants);
@@ -145,29 +145,29 @@ class ConvexNetwork {
   void find_bond_forces(double roundoff = 0);
   bool bonds_hold();
 
-  std::vector<double> origin_;    ///< start value of x
-  std::vector<double> base_, u_;  ///< x = base + u; base is the start value of the node, or of the heavy node that it follows
+  std::vector<double> origin_;    ///< Start value of x.
+  std::vector<double> base_, u_;  ///< x = base + u; base is the start value of the node, or of the heavy node that it follows.
   std::vector<double> inertia_, applied_;
   std::vector<char> fixed_, tied_;
   bool any_inertia_ = false;
   std::vector<Equation> equations_;
-  std::vector<double> given_;  ///< prescribed change of each fixed node
+  std::vector<double> given_;  ///< Prescribed change of each fixed node.
   std::vector<Branch> branches_;
-  std::vector<int> cluster_;  ///< of each node: its cluster, the nodes that sticking branches join
-  std::vector<int> head_;     ///< of each cluster: its fixed or heaviest node
-  std::vector<int> column_;   ///< of each cluster: its unknown, -1 if it holds a fixed node
+  std::vector<int> cluster_;  ///< For each node: its cluster, the nodes that sticking branches join.
+  std::vector<int> head_;     ///< For each cluster: its fixed or heaviest node.
+  std::vector<int> column_;   ///< For each cluster: its unknown, -1 if it holds a fixed node.
   int columns_ = 0;
-  std::vector<int> released_;  ///< branches of the last release, the worst first
-  int full_steps_ = 0;  ///< full Newton steps in a row
+  std::vector<int> released_;  ///< Branches of the last release, the worst first.
+  int full_steps_ = 0;  ///< Full Newton steps in a row.
   std::size_t rounds_ = 0;
   std::vector<int> runaways_;
-  std::vector<double> bond_force_;  ///< of each branch that sticks
-  bool in_doubt_ = false;           ///< round-off prevented these
+  std::vector<double> bond_force_;  ///< For each branch that sticks.
+  bool in_doubt_ = false;           ///< round-off prevented these.
   struct Beyond {
-    double over;  ///< by how much, or with which share
+    double over;  ///< By how much, or with which share.
     int branch, side;
   };
-  std::vector<Beyond> beyond_;  ///< sticking branches that cannot hold their forces
+  std::vector<Beyond> beyond_;  ///< Sticking branches that cannot hold their forces.
 };
 
 }  // namespace rheonet

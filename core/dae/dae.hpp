@@ -82,17 +82,17 @@ class Dae {
 
   // --- All quantities that follow from a state; valid until the next call of any function above.
   struct View {
-    std::vector<double> velocity;      ///< of each node [m/s]
-    std::vector<double> acceleration;  ///< of known and massive nodes, and of those joined to them [m/s^2]; 0 for others
-    std::vector<double> nodal;         ///< sum of the forces of the branches and sliders at each node [N]
-    std::vector<double> applied;       ///< sum of the applied forces at each node [N]
-    std::vector<double> p, f, creep;   ///< of each deflection branch
-    std::vector<double> flow;          ///< relative velocity of each deflection branch [m/s]
-    std::vector<double> dp;            ///< p' of each deflection branch [m/s]
-    std::vector<double> rate_velocity, rate_force;  ///< of each rate branch
-    std::vector<double> slider_velocity, slider_force;  ///< of each slider; one that sticks may exceed its bound by round-off
-    std::vector<double> train_force;   ///< of each train [N]
-    std::vector<double> position;      ///< of each known node, and of those marked as needed [m]
+    std::vector<double> velocity;      ///< For each node [m/s].
+    std::vector<double> acceleration;  ///< For known and massive nodes, and for those joined to them [m/s^2]; 0 for others.
+    std::vector<double> nodal;         ///< Sum of the forces of the branches and sliders at each node [N].
+    std::vector<double> applied;       ///< Sum of the applied forces at each node [N].
+    std::vector<double> p, f, creep;   ///< For each deflection branch.
+    std::vector<double> flow;          ///< Relative velocity of each deflection branch [m/s].
+    std::vector<double> dp;            ///< p' of each deflection branch [m/s].
+    std::vector<double> rate_velocity, rate_force;  ///< For each rate branch.
+    std::vector<double> slider_velocity, slider_force;  ///< For each slider; one that sticks may exceed its bound by round-off.
+    std::vector<double> train_force;   ///< For each train [N].
+    std::vector<double> position;      ///< For each known node, and for those marked as needed [m].
   };
   const View& view(double t, const double* y, const double* yp);
   /// Makes a double stand for the exact time t (see Inputs::refine). The view is computed anew if that changes anything.
@@ -141,7 +141,7 @@ class Dae {
   struct Subject {
     enum class Kind { node, element };
     Kind kind;
-    int index;  ///< into Scene::nodes or Scene::elements
+    int index;  ///< Into Scene::nodes or Scene::elements.
     auto operator<=>(const Subject&) const = default;
   };
   Subject subject(int unknown) const;
@@ -206,7 +206,7 @@ class Dae {
   struct Parallel { std::vector<int> branches; };
   struct Follower {
     int branch, leader, row;
-    bool alone;  ///< the leader has no other follower
+    bool alone;  ///< The leader has no other follower.
     int own_entry, leader_entry;
     std::vector<int> row_entries;
     bool active;
@@ -225,9 +225,9 @@ class Dae {
 
   /// An entry of the Jacobian due to a block: d(output, or rate of a state)/d(atom) d(atom)/dy times `factor`.
   struct Coupling {
-    enum class By { itself, slope, damping };  ///< d(atom)/dy: 1, the slope of a deflection law, that of a rate law
+    enum class By { itself, slope, damping };  ///< d(atom)/dy: 1, the slope of a deflection law, that of a rate law.
     int entry;
-    bool of_rate;  ///< of the rate of state `source`, else of the output of block `source`
+    bool of_rate;  ///< It delays the rate of state `source`, else the output of block `source`.
     std::size_t source, atom;
     double factor;
     By by;
@@ -303,7 +303,7 @@ class Dae {
   int size_ = 0;
   bool idle_ = false, rough_ = false, follows_time_ = false, secants_ = false;
   std::vector<int> iv_, ip_, if_, ix_, iz_;
-  int deflections_begin_ = 0, deflections_end_ = 0;  ///< those of ip_ are one after the other
+  int deflections_begin_ = 0, deflections_end_ = 0;  ///< The entries of ip_ are one after the other.
   std::vector<Coupling> couplings_;
   std::vector<SlidingCoupling> sliding_couplings_;
   std::vector<ShareCoupling> share_couplings_;
@@ -311,46 +311,46 @@ class Dae {
   /// For each delayed branch, the negated present velocity of its free ends. These ends are masses (otherwise no step is longer
   /// than the delay).
   std::vector<Terms> felt_terms_;
-  std::vector<Structure::Term> flows_, velocities_;  ///< the terms of Terms: branches with unknown deflections, and nodes
-  std::vector<int> group_row_;   ///< of each group
-  std::vector<char> differential_;         ///< of each row
-  std::vector<char> differentiated_;       ///< of each unknown
+  std::vector<Structure::Term> flows_, velocities_;  ///< The terms of Terms: branches with unknown deflections, and nodes.
+  std::vector<int> group_row_;   ///< For each group.
+  std::vector<char> differential_;         ///< For each row.
+  std::vector<char> differentiated_;       ///< For each unknown.
   Pattern pattern_;
   struct Constant { int entry; double value; };
-  std::vector<Constant> constants_;        ///< of dF/dy
+  std::vector<Constant> constants_;        ///< Of dF/dy.
   /// Entries of the balances of pivots, which other rows share; then they make way for the equations of the trains.
   struct SharedEntry { int from, to; std::size_t equation, share; };
   std::vector<SharedEntry> shared_entries_;
   struct SharedMass { int entry; std::size_t equation, share; double mass; };
-  std::vector<SharedMass> shared_masses_;  ///< those in the balances of pivots, in the rows that share them
-  std::vector<int> pivot_entries_;         ///< in the rows of pivots
-  std::vector<Constant> tied_;             ///< the coefficients of these equations
-  std::vector<Constant> masses_;           ///< of dF/dy', except for flow_entries_
+  std::vector<SharedMass> shared_masses_;  ///< Entries in the balances of pivots, in the rows that share them.
+  std::vector<int> pivot_entries_;         ///< In the rows of pivots.
+  std::vector<Constant> tied_;             ///< The coefficients of these equations.
+  std::vector<Constant> masses_;           ///< Entries of dF/dy', except for flow_entries_.
   struct FlowEntry { int entry, branch; double sign; };
   /// An entry due to the present velocity that a delayed branch feels.
   struct FeltEntry { int entry, delayed; double sign; };
-  std::vector<Parallel> parallels_;        ///< of two or more
+  std::vector<Parallel> parallels_;        ///< Groups of two or more.
   std::vector<Follower> followers_;
   // Coefficients that vanish while their branch is held at rest.
-  std::vector<FlowEntry> flow_entries_;    ///< of p'
-  std::vector<FlowEntry> creep_entries_;   ///< of the slope of its creep
+  std::vector<FlowEntry> flow_entries_;    ///< Entries of p'.
+  std::vector<FlowEntry> creep_entries_;   ///< Entries of the slope of its creep.
   std::vector<FeltEntry> felt_entries_;
-  std::vector<double> moving_;             ///< of each deflection branch: 1, or 0 while it is held at rest
+  std::vector<double> moving_;             ///< For each deflection branch: 1, or 0 while it is held at rest.
   std::vector<Scatter> scatter_;
 
-  std::vector<double> offset_;  ///< displacement less deflection of each deflection branch that does not creep
-  std::vector<double> driven_from_;    ///< of each driven branch: its deflection at the last `enter` or `mark` of the inputs [m]
-  std::vector<double> slider_shift_;   ///< displacement of each sticking slider
-  std::vector<double> slip_force_;     ///< of each slider: 0 while it sticks
-  std::vector<signed char> slip_side_; ///< of each slider: the direction in which it slips; 0 while it sticks
-  std::vector<std::size_t> varying_;   ///< slipping sliders whose sliding force varies
+  std::vector<double> offset_;  ///< Displacement less deflection of each deflection branch that does not creep.
+  std::vector<double> driven_from_;    ///< For each driven branch: its deflection at the last `enter` or `mark` of the inputs [m].
+  std::vector<double> slider_shift_;   ///< Displacement of each sticking slider.
+  std::vector<double> slip_force_;     ///< For each slider: 0 while it sticks.
+  std::vector<signed char> slip_side_; ///< For each slider: the direction in which it slips; 0 while it sticks.
+  std::vector<std::size_t> varying_;   ///< Slipping sliders whose sliding force varies.
   // Losses of trains. While some depend on the speed, the last three change with it.
-  std::vector<char> b_drives_;         ///< of each train
-  std::optional<TrainShares> train_shares_;  ///< if some depend on the speed
-  std::vector<Loss::Line> loss_lines_; ///< of each train whose losses slip
-  std::vector<std::array<double, 3>> train_forces_;  ///< as in Structure
-  std::vector<Structure::Tied> equations_;           ///< of the trains, with the present shares
-  std::vector<char> by_force_;         ///< of each rate branch: these equations need its law as w = rate(f)
+  std::vector<char> b_drives_;         ///< For each train.
+  std::optional<TrainShares> train_shares_;  ///< If some depend on the speed.
+  std::vector<Loss::Line> loss_lines_; ///< For each train whose losses slip.
+  std::vector<std::array<double, 3>> train_forces_;  ///< As in Structure.
+  std::vector<Structure::Tied> equations_;           ///< Equations of the trains, with the present shares.
+  std::vector<char> by_force_;         ///< For each rate branch: these equations need its law as w = rate(f).
   // Work space of the residual.
   std::vector<double> work_, v_, a_, rate_in_, rate_out_, rate_d_, df_, dc_;
   View view_;

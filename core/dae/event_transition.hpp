@@ -20,19 +20,19 @@ class EventTransition {
   EventTransition(const Network& network, const Structure& classified, Inputs& inputs);
 
   struct Change {
-    double heat = 0;                 ///< turned into heat at the event [J]
-    std::vector<std::string> notes;  ///< messages on impulses
-    std::vector<SlidingMode> sliding_modes;  ///< deflection branches in a Filippov sliding mode at rest
+    double heat = 0;                 ///< Turned into heat at the event [J].
+    std::vector<std::string> notes;  ///< Messages on impulses.
+    std::vector<SlidingMode> sliding_modes;  ///< Deflection branches in a Filippov sliding mode at rest.
     struct Impact { int element, side; };
-    std::vector<Impact> impacts;  ///< elements whose ends are thrown back from a contact, and its side
+    std::vector<Impact> impacts;  ///< Elements whose ends are thrown back from a contact, and its side.
   };
   /// Elements whose guards have fired.
   struct Fired {
     std::vector<int> sliders;
-    std::vector<int> starts;  ///< deflection branches held at rest that begin to move in their law's direction
-    std::vector<int> turns;   ///< deflection branches that have stopped: they rest, or go on in their law's direction
-    std::vector<int> settles; ///< sliders that have come into contact, and whose further hops are too small to matter: they stay
-    std::vector<int> rests;   ///< deflection branches held at rest in parallel with a slider at its bound, which sticks now
+    std::vector<int> starts;  ///< Deflection branches held at rest that begin to move in their law's direction.
+    std::vector<int> turns;   ///< Deflection branches that have stopped: they rest, or go on in their law's direction.
+    std::vector<int> settles; ///< Sliders that have come into contact, and whose further hops are too small to matter: they stay.
+    std::vector<int> rests;   ///< Deflection branches held at rest in parallel with a slider at its bound, which sticks now.
   };
   /// Takes the state across the event at t, just after Inputs::enter if `stepped`, and selects the modes that hold afterwards.
   /// `force` holds the forces of the sliders before it, `fired` the elements whose guards fired, `horizon` the time to the next
@@ -55,8 +55,8 @@ class EventTransition {
   struct Jump {
     ConvexNetwork problem;
     ConvexNetwork::Outcome outcome;
-    std::vector<int> slider_branch;  ///< of each slider; -1 for one that cannot move
-    double share = 1;                ///< of the displacements that is made: up to the first contact
+    std::vector<int> slider_branch;  ///< For each slider; -1 for one that cannot move.
+    double share = 1;                ///< Share of the displacements that is made: up to the first contact.
   };
   /// Empty if everything balances. With `along` each law keeps the slope of its present direction on both sides.
   std::optional<Jump> find_jump(const std::vector<double>& dx, const State& state, const std::vector<double>& force, bool along = false) const;
@@ -100,7 +100,7 @@ class EventTransition {
   void refuse_torn_links(double t) const;
   /// Throws SimulationError if prescribed motions demand a relative velocity that a law forbids.
   void refuse_blocked_motions(double t, const ConvexNetwork& problem) const;
-  struct Parting { double t, of_a, of_b; };  ///< s, and velocities [m/s]
+  struct Parting { double t, of_a, of_b; };  ///< s, and velocities [m/s].
   std::optional<Parting> parting(double t, NodeId a, NodeId b) const;
   std::string moved_node(NodeId node, const std::string& how) const;
   [[noreturn]] void refuse_tearing_step(double t, NodeId first, NodeId node, double by) const;
@@ -182,20 +182,20 @@ class EventTransition {
   const Network& network_;
   const Structure& structure_;
   Inputs& inputs_;
-  bool started_ = false;      ///< the start has been resolved
-  bool stepped_ = false;      ///< the forces of the sliders are those before a step of the inputs
-  std::vector<char> broken_;           ///< of each slider: its bounds are its sliding force
-  std::vector<char> impulse_told_;     ///< of each element: a message has reported its impulse at a step of position
-  std::vector<signed char> slipping_;  ///< of each slider: the direction in which it slips already
-  std::vector<signed char> came_to_rest_;  ///< of each slider: the direction in which it slipped up to this event
-  std::vector<int> hit_;               ///< sliders in contact whose ends moved towards each other at this event
-  double largest_kinetic_ = 0;         ///< at events so far [J]
-  std::vector<double> slack_;          ///< of each node: imbalance that is accepted [N]
+  bool started_ = false;      ///< The start has been resolved.
+  bool stepped_ = false;      ///< The forces of the sliders are those before a step of the inputs.
+  std::vector<char> broken_;           ///< For each slider: its bounds are its sliding force.
+  std::vector<char> impulse_told_;     ///< For each element: a message has reported its impulse at a step of position.
+  std::vector<signed char> slipping_;  ///< For each slider: the direction in which it slips already.
+  std::vector<signed char> came_to_rest_;  ///< For each slider: the direction in which it slipped up to this event.
+  std::vector<int> hit_;               ///< Sliders in contact whose ends moved towards each other at this event.
+  double largest_kinetic_ = 0;         ///< At events so far [J].
+  std::vector<double> slack_;          ///< For each node: imbalance that is accepted [N].
   /// True if both ends move as prescribed, through rigid links too.
   bool prescribed(const Branch& b) const { return led_by_[at(b.a)] >= 0 && led_by_[at(b.b)] >= 0; }
 
-  std::vector<NodeId> led_by_;         ///< of each node: itself if its motion is known, a known node to which rigid links join it, or -1
-  std::vector<char> firm_;             ///< of each node: it, or a node to which rigid links join it, is known or has a mass
+  std::vector<NodeId> led_by_;         ///< For each node: itself if its motion is known, a known node to which rigid links join it, or -1.
+  std::vector<char> firm_;             ///< For each node: it, or a node to which rigid links join it, is known or has a mass.
 };
 
 }  // namespace rheonet

@@ -81,10 +81,10 @@ class Inputs {
   void mark(double t) { mark(t, true); }
 
   // For each motion:
-  std::vector<double> position;  ///< undefined for a motion by a block
-  std::vector<double> velocity, acceleration;  ///< the acceleration by a block may be partial, as for forces
+  std::vector<double> position;  ///< Undefined for a motion by a block.
+  std::vector<double> velocity, acceleration;  ///< The acceleration by a block may be partial, as for forces.
   // For each force:
-  std::vector<double> force, force_rate;  ///< the rate of a force by a block is partial, at constant unknowns
+  std::vector<double> force, force_rate;  ///< The rate of a force by a block is partial, at constant unknowns.
   // For each delayed branch of `past`: it feels `felt` plus `felt_now` times the present velocity of its free ends [m/s].
   std::vector<double> felt, felt_now;
 
@@ -129,9 +129,9 @@ class Inputs {
     int block;
     Signal signal;
     bool by_position, by_acceleration;
-    Piece piece;             ///< of the position, or of the velocity
+    Piece piece;             ///< Piece of the position, or of the velocity.
     TimePoint anchor_time;
-    double anchor = 0;  ///< position at a time, from which a velocity is integrated
+    double anchor = 0;  ///< Position at a time, from which a velocity is integrated.
   };
   struct Force { int element; Signal signal; Piece piece; };
   double position_of(const Motion& m, TimePoint t) const;
@@ -142,27 +142,27 @@ class Inputs {
   void sense_network(const State& state);
   const Network* network_;
   TimePoint sensed_at_;                  ///< s
-  std::vector<Dual> base_;               ///< states and sensor values at that time, with their rates
-  struct Flow { double w, dw, bound; };  ///< velocity, its rate, and a bound on the magnitude of its second derivative
+  std::vector<Dual> base_;               ///< States and sensor values at that time, with their rates.
+  struct Flow { double w, dw, bound; };  ///< Velocity, its rate, and a bound on the magnitude of its second derivative.
   Flow flow(int a, int b, double t, double limit) const;
   double search_reversal(int a, int b, double t, double limit, double grain) const;
   struct Search { double from, limit, found; };
 
   std::vector<Motion> motions_;
   std::vector<Force> forces_;
-  std::vector<Box> box_;                      ///< of each slider
-  std::vector<std::size_t> varying_sliders_;  ///< those whose box varies
-  std::vector<Loss> losses_;                  ///< of each train
-  std::vector<double> train_force_;           ///< that the losses have their bounds for [N]
-  std::map<std::pair<int, int>, Search> searches_;  ///< the last one for each pair of motions, on the present pieces
+  std::vector<Box> box_;                      ///< For each slider.
+  std::vector<std::size_t> varying_sliders_;  ///< Sliders whose box varies.
+  std::vector<Loss> losses_;                  ///< For each train.
+  std::vector<double> train_force_;           ///< That the losses have their bounds for [N].
+  std::map<std::pair<int, int>, Search> searches_;  ///< The last one for each pair of motions, on the present pieces.
   std::vector<double> steps_;
-  TimePoint next_break_;  ///< of the signals
-  TimePoint exact_;       ///< see refine
-  TimePoint since_;       ///< the last `enter` or `mark`
-  double stop_;            ///< of the run [s]
+  TimePoint next_break_;  ///< Next one of the signals.
+  TimePoint exact_;       ///< See refine.
+  TimePoint since_;       ///< The last `enter` or `mark`.
+  double stop_;            ///< End of the run [s].
   bool moves_by_blocks_;
   BlockSignals blocks_;
-  DelayHistory history_;  ///< after blocks_, which gives its channels
+  DelayHistory history_;  ///< After blocks_, which gives its channels.
   double time_;
 };
 

@@ -21,7 +21,7 @@ class PatternBuilder {
     return static_cast<int>(places_.size()) - 1;
   }
   struct Place { int row, column; };
-  /// Of each ticket.
+  /// For each ticket.
   const std::vector<Place>& places() const { return places_; }
   /// The pattern, and for each ticket its entry in it: tickets for the same place get the same entry.
   Pattern build(int size, std::vector<int>& entry_of_ticket) const;

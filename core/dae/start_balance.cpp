@@ -65,10 +65,10 @@ class StartBalance {
     DeflectionBatch* batch;
     std::size_t i;
     Branch ends;
-    bool by_place;  ///< its force follows from the displacement of its ends, not from an initial force
-    bool given;     ///< its initial force or displacement is known
-    bool forced;    ///< the netlist gives it to the element itself (`f0`, `d0`); an f0 of 0 demands nothing of others
-    double step;    ///< of its displacement at the start, due to motions
+    bool by_place;  ///< Its force follows from the displacement of its ends, not from an initial force.
+    bool given;     ///< Its initial force or displacement is known.
+    bool forced;    ///< The netlist gives it to the element itself (`f0`, `d0`); an f0 of 0 demands nothing of others.
+    double step;    ///< Step of its displacement at the start, due to motions.
   };
   struct Side {
     int member;
@@ -382,11 +382,11 @@ class StartBalance {
   const Structure& structure_;
   State& state_;
   std::vector<char> fixed_;
-  double tolerance_;                       ///< forces within the accuracy asked for agree
-  std::vector<Member> members_;            ///< of each deflection branch
-  std::vector<std::vector<Side>> around_;  ///< of each group: the branches that lead away
-  std::vector<char> lets_go_;              ///< of each group: a slider there may give way
-  std::vector<double> before_, after_;     ///< of each group: what is applied just before and after the start [N]
+  double tolerance_;                       ///< Forces within the accuracy asked for agree.
+  std::vector<Member> members_;            ///< For each deflection branch.
+  std::vector<std::vector<Side>> around_;  ///< For each group: the branches that lead away.
+  std::vector<char> lets_go_;              ///< For each group: a slider there may give way.
+  std::vector<double> before_, after_;     ///< For each group: force applied just before and just after the start [N].
   std::vector<std::string> chosen_;
 };
 

@@ -141,22 +141,22 @@ class SteadyStateSolver {
   State& state_;
   const bool resting_;
   const double t_;
-  std::vector<Law> laws_;         ///< one for each deflection branch
-  std::vector<double> velocity_;  ///< of each node
-  std::vector<double> load_, load_magnitude_;  ///< applied at each node
-  std::vector<NodeId> leader_;    ///< of each node: the node that represents all that move with it
-  std::vector<NodeId> pinned_;    ///< their velocity is given because nothing else determines it
-  std::vector<NodeId> follows_;   ///< of each slider whose bounds depend on its own velocity: the end whose velocity they are evaluated with; else -1
-  std::vector<char> broken_;      ///< of each slider: it has broken away
-  std::vector<int> slip_;         ///< of each slider: its direction
-  std::vector<double> pressed_;   ///< of each slider with a gauge: estimate of its force [N]
-  double contact_stiffness_ = 0;  ///< of these estimates [N/m]
+  std::vector<Law> laws_;         ///< One for each deflection branch.
+  std::vector<double> velocity_;  ///< For each node.
+  std::vector<double> load_, load_magnitude_;  ///< Applied at each node.
+  std::vector<NodeId> leader_;    ///< For each node: the node that represents all that move with it.
+  std::vector<NodeId> pinned_;    ///< Their velocity is given because nothing else determines it.
+  std::vector<NodeId> follows_;   ///< For each slider whose bounds depend on its own velocity: the end whose velocity they are evaluated with; else -1.
+  std::vector<char> broken_;      ///< For each slider: it has broken away.
+  std::vector<int> slip_;         ///< For each slider: its direction.
+  std::vector<double> pressed_;   ///< For each slider with a gauge: estimate of its force [N].
+  double contact_stiffness_ = 0;  ///< For these estimates [N/m].
   double largest_load_ = 0;
-  TrainForceTrials trials_{network_, inputs_, std::vector<double>(network_.trains.size(), 0), 0};  ///< for the balance at the velocities
-  bool losses_known_;  ///< of the trains; the first balance is without losses
-  bool along_curves_ = false;  ///< friction is that at each velocity, not the tangent at the last trial
-  State begun_, trial_;   ///< the state that blocks sense: at first, and at the last trial
-  int block_trials_ = 0;  ///< after the first one
+  TrainForceTrials trials_{network_, inputs_, std::vector<double>(network_.trains.size(), 0), 0};  ///< Trials for the balance at the velocities.
+  bool losses_known_;  ///< Losses of the trains are known; the first balance is without losses.
+  bool along_curves_ = false;  ///< Friction is that at each velocity, not the tangent at the last trial.
+  State begun_, trial_;   ///< The state that blocks sense: at first, and at the last trial.
+  int block_trials_ = 0;  ///< After the first one.
   SteadyStart result_;
 };
 

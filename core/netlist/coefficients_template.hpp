@@ -16,7 +16,7 @@ struct Polynomial {
   Number unit;
 };
 
-/// Such a polynomial as given by the file: an array of values, or a single one.
+/// A polynomial as the file gives it: an array of coefficients, or a single one.
 class CoefficientsTemplate {
  public:
   static const char* const example;

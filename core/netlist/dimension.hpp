@@ -28,16 +28,16 @@ enum class Domain { translation, rotation };
 enum class Quantity {
   number,     ///< dimensionless
   time,       ///< s
-  frequency,  ///< Hz (cycles a second); a unit with rad is an angular frequency and is divided by 2 pi
-  angle,      ///< rad in both domains (the phase of a signal)
-  position,   ///< m | rad; displacements too
-  length,     ///< m in both domains (the radius of a pinion)
-  velocity,   ///< m/s | rad/s
-  force,      ///< N | N*m
-  stiffness,  ///< N/m | N*m/rad
-  damping,    ///< N*(s/m)^n | N*m*(s/rad)^n, n the value of the parameter's flow index
-  mass,       ///< kg | kg*m^2
-  acceleration,  ///< m/s^2 | rad/s^2
+  frequency,  ///< Hz (cycles a second); a unit with rad is an angular frequency and is divided by 2 pi.
+  angle,      ///< rad in both domains (the phase of a signal).
+  position,   ///< m | rad; displacements too.
+  length,     ///< m in both domains (the radius of a pinion).
+  velocity,   ///< m/s | rad/s.
+  force,      ///< N | N*m.
+  stiffness,  ///< N/m | N*m/rad.
+  damping,    ///< N*(s/m)^n | N*m*(s/rad)^n, n the value of the parameter's flow index.
+  mass,       ///< kg | kg*m^2.
+  acceleration,  ///< m/s^2 | rad/s^2.
   power,         ///< W
   energy,        ///< J
 };

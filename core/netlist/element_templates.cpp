@@ -359,7 +359,7 @@ void TemplateReader::read_instance(ElementTemplate& plan, Model& model, Scope* s
     if (const TomlEntry* entry = reader.require(input, plan.spot, input + law_input_example)) read_law_input(plan, *entry);
 }
 
-/// What an instance gives for an input of its law: a wire, or a signal, for which it gets a generator.
+/// Reads the value of an input of a law at one of its instances: a wire, or a signal, for which it gets a generator.
 void TemplateReader::read_law_input(ElementTemplate& plan, const TomlEntry& entry) {
   const bool path = is_path_of_quantity(entry.value);
   if (path || find_feed(entry.value)) {

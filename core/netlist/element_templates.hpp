@@ -21,11 +21,11 @@ struct Model;
 
 /// An input of a block, or the block that feeds a signal, as written: `controller`, `-drum.velocity`.
 struct SignalConnection {
-  const TomlValue* source = nullptr;  ///< a string
-  std::string path;                   ///< without the sign
+  const TomlValue* source = nullptr;  ///< A string.
+  std::string path;                   ///< Without the sign.
   double sign = 1;
-  int parameter = -1;  ///< index into Declaration::parameters of the signal that is fed
-  std::string name = {};  ///< of an input in the expression of its block; "": u1, u2, ... in order
+  int parameter = -1;  ///< Index into Declaration::parameters of the signal that is fed.
+  std::string name = {};  ///< For an input in the expression of its block; "": u1, u2, ... in order.
 };
 
 /// `repeat = { count, as, arrange }` of an entry.
@@ -41,29 +41,29 @@ struct ElementTemplate {
   enum class Kind { element, series, parallel, instance };
 
   Kind kind = Kind::element;
-  bool sound = false;  ///< false: it has a mistake; no elements are made
-  std::optional<Domain> domain;  ///< given by `domain` or by the type; for a group or an instance, that of all its members
-  bool in_model = false;  ///< stands in a model, which has no domain of its own
-  std::string name;    ///< within its assembly; "" for an unnamed group, which adds no level
-  Spot spot;           ///< of its name, or of its table
+  bool sound = false;  ///< false: it has a mistake; no elements are made.
+  std::optional<Domain> domain;  ///< Given by `domain` or by the type; for a group or an instance, that of all its members.
+  bool in_model = false;  ///< Stands in a model, which has no domain of its own.
+  std::string name;    ///< Within its assembly; "" for an unnamed group, which adds no level.
+  Spot spot;           ///< Place of its name, or of its table.
   const TomlValue* source = nullptr;
-  std::vector<int> nodes;  ///< `at`, `between`, then `support`: indices into Scope::nodes, or Scope::ground. Empty within a group
+  std::vector<int> nodes;  ///< `at`, `between`, then `support`: indices into Scope::nodes, or Scope::ground. Empty within a group.
   std::optional<Repeat> repeat;
 
-  int declaration = 0;          ///< of an element
-  bool at = false;              ///< of an element
-  std::vector<Formula> values;  ///< of an element: one a declared parameter; of an instance: one a parameter of its model
-  std::vector<SignalTemplate> signals;  ///< of an element, one for each of signal_parameters
+  int declaration = 0;          ///< For an element.
+  bool at = false;              ///< For an element.
+  std::vector<Formula> values;  ///< For an element: one a declared parameter; for an instance: one a parameter of its model.
+  std::vector<SignalTemplate> signals;  ///< For an element, one for each of signal_parameters.
   std::vector<int> signal_parameters;
-  std::vector<std::size_t> default_signals;  ///< signals that are not given and have a default
-  std::map<std::size_t, CharacteristicTemplate> characteristics;  ///< of an element, by the number of their parameter
-  std::vector<SignalConnection> inputs;  ///< of a block; of an instance of a law those that are connected, with their names
-  const TomlValue* function = nullptr;   ///< of a block: the expression of its output
-  std::optional<LookupTemplate> lookup;  ///< of a block: the table of its output
-  std::vector<CoefficientsTemplate> coefficients;  ///< of a block
-  std::vector<SignalConnection> feeds;   ///< signals fed by the output of a block
+  std::vector<std::size_t> default_signals;  ///< Signals that are not given and have a default.
+  std::map<std::size_t, CharacteristicTemplate> characteristics;  ///< For an element, by the number of their parameter.
+  std::vector<SignalConnection> inputs;  ///< For a block; for an instance of a law those that are connected, with their names.
+  const TomlValue* function = nullptr;   ///< For a block: the expression of its output.
+  std::optional<LookupTemplate> lookup;  ///< For a block: the table of its output.
+  std::vector<CoefficientsTemplate> coefficients;  ///< For a block.
+  std::vector<SignalConnection> feeds;   ///< Signals fed by the output of a block.
 
-  std::vector<ElementTemplate> members;  ///< of a group; of an instance of a law generators for the inputs that are signals
+  std::vector<ElementTemplate> members;  ///< For a group; for an instance of a law generators for the inputs that are signals.
 
   /// Whether a signal or a block gives this parameter of an element.
   bool varies(std::size_t parameter) const;
@@ -72,7 +72,7 @@ struct ElementTemplate {
     const bool coefficient = !parameter.coefficient_with.empty() && source->find(parameter.coefficient_with) != nullptr;
     return coefficient ? Quantity::number : parameter.quantity;
   }
-  Model* model = nullptr;     ///< of an instance
+  Model* model = nullptr;     ///< For an instance.
 };
 
 /// The entries of one `elements` table, and the nodes that they name.
@@ -81,8 +81,8 @@ struct Scope {
     std::string name;
     Spot spot;
   };
-  static constexpr int ground = -1;  ///< stands for the ground among indices into `nodes`
-  std::vector<Node> nodes;  ///< a model's ports come first
+  static constexpr int ground = -1;  ///< Stands for the ground among indices into `nodes`.
+  std::vector<Node> nodes;  ///< A model's ports come first.
   std::unordered_map<std::string, int> node_index;
   std::vector<ElementTemplate> entries;
 
@@ -99,17 +99,17 @@ struct Model {
   std::string name;
   Spot spot;
   const TomlValue* source = nullptr;
-  const TomlValue* check = nullptr;  ///< conditions on the parameters of each instance
+  const TomlValue* check = nullptr;  ///< Conditions on the parameters of each instance.
   std::vector<std::string> ports;
   std::vector<NamedFormula> parameters;
   bool law = false;
-  std::vector<std::string> inputs;  ///< of a law
-  std::vector<std::size_t> order;  ///< order in which the parameters can be evaluated
+  std::vector<std::string> inputs;  ///< For a law.
+  std::vector<std::size_t> order;  ///< Order in which the parameters can be evaluated.
   Scope scope;
-  std::vector<Number> defaults;              ///< of the parameters; NaN if absent or invalid
-  const Environment* environment = nullptr;  ///< the [parameters] of its file
-  double least_elements = 0;                 ///< lower bound of the elements of an instance: each `repeat` counts once
-  bool both_domains = false;                 ///< its defaults, of translation, count in rotation as their counterparts
+  std::vector<Number> defaults;              ///< Defaults of the parameters; NaN if absent or invalid.
+  const Environment* environment = nullptr;  ///< The [parameters] of its file.
+  double least_elements = 0;                 ///< Lower bound of the elements of an instance: each `repeat` counts once.
+  bool both_domains = false;                 ///< Its defaults, of translation, count in rotation as their counterparts.
   bool sound = false;
 };
 

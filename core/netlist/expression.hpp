@@ -16,10 +16,10 @@ struct Number {
   double value = 0;
   Dimension dimension;
   bool plain = true;
-  double radian = 0;      ///< exponent of rad, as in Unit
-  double hertz = 0;       ///< exponent of cycles: of Hz, as in Unit, and of expressions that count cycles, such as omega/(2*pi)
-  double pi = 0;          ///< exponent of pi while it may be a number or the conversion of cycles (counting.hpp)
-  double typed_time = 0;  ///< part of the exponent of s that stems from typed times: 1/T of a time T is a frequency
+  double radian = 0;      ///< Exponent of rad, as in Unit.
+  double hertz = 0;       ///< Exponent of cycles: of Hz, as in Unit, and of expressions that count cycles, such as omega/(2*pi).
+  double pi = 0;          ///< Exponent of pi while it may be a number or the conversion of cycles (counting.hpp).
+  double typed_time = 0;  ///< Part of the exponent of s that stems from typed times: 1/T of a time T is a frequency.
 };
 
 /// `value` times `unit`. The inverse of a unit of time other than s counts cycles, as Hz does: 600 1/min are 10 Hz.
@@ -29,7 +29,7 @@ Number number_in(double value, const Unit& unit);
 struct Environment {
   std::map<std::string, Number, std::less<>> names;
   const Environment* outer = nullptr;
-  std::string known = {};  ///< lists them, in the hint of an unknown name
+  std::string known = {};  ///< Lists them, in the hint of an unknown name.
 
   const Number* find(std::string_view name) const;
 };

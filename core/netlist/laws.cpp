@@ -190,7 +190,7 @@ class LawReader {
   void add_function(const std::string& called, const TomlValue& source) {
     if (!expect_string(source, law_part(called) + " of law `" + law_.key + "`", diagnostics_, "an expression: \"k*d\"")) return;
     TomlValue text = source;
-    // rate(z) is the output of the function that feeds the integrator of z; blanks keep the places of what follows.
+    // rate(z) is the output of the function that feeds the integrator of z; blanks keep the columns of the rest of the line.
     for (const std::string& state : states_) {
       const std::string call = "rate(" + state + ")", block = state + "_rate ";
       for (std::size_t at = text.text.find(call); at != text.text.npos; at = text.text.find(call, at)) text.text.replace(at, call.size(), block);

@@ -164,7 +164,7 @@ class Reader {
     expander.leave_out_values();
     try {
       expander.run(scope, environment, overrides);
-    } catch (const TooManyDiagnostics&) {  // they are told when the elements get their values
+    } catch (const TooManyDiagnostics&) {  // reported when the elements get their values
     }
     return result;
   }

@@ -14,24 +14,24 @@
 namespace rheonet {
 
 struct ReadOptions {
-  std::vector<std::string> overrides;         ///< "PATH=VALUE", as after --set
-  std::vector<std::string> origins = {};      ///< prefixes of the last overrides in messages; others have "--set "
-  std::optional<double> accuracy = {};        ///< as after --accuracy; wins over the file
-  std::vector<std::string> records = {};      ///< paths recorded in addition to those of the file
-  bool plotted = false;                       ///< the records that `[plot]` draws are recorded too
-  std::vector<std::string> without = {};      ///< effects, as after --without: left out in addition to those of the file
-  std::optional<std::vector<std::string>> only = {};  ///< as after --only: leaves out all others; replaces the `[effects]` of the file
+  std::vector<std::string> overrides;         ///< "PATH=VALUE", as after --set.
+  std::vector<std::string> origins = {};      ///< Prefixes of the last overrides in messages; others have "--set ".
+  std::optional<double> accuracy = {};        ///< As after --accuracy; wins over the file.
+  std::vector<std::string> records = {};      ///< Paths recorded in addition to those of the file.
+  bool plotted = false;                       ///< The records that `[plot]` draws are recorded too.
+  std::vector<std::string> without = {};      ///< Effects, as after --without: left out in addition to those of the file.
+  std::optional<std::vector<std::string>> only = {};  ///< As after --only: leaves out all others; replaces the `[effects]` of the file.
   std::vector<std::string> keep = {};         ///< Scene::keep
-  bool claims = true;                         ///< false: `[expect]` is not read
-  std::vector<std::string> measures = {};     ///< added to Scene::claims after those of the file: see measures.hpp
-  std::vector<std::filesystem::path> model_folders = {};  ///< folders that `include` falls back on
-  FileCache* cache = nullptr;                 ///< for callers that read a scene many times
+  bool claims = true;                         ///< false: `[expect]` is not read.
+  std::vector<std::string> measures = {};     ///< Added to Scene::claims after those of the file: see measures.hpp.
+  std::vector<std::filesystem::path> model_folders = {};  ///< Folders that `include` falls back on.
+  FileCache* cache = nullptr;                 ///< For callers that read a scene many times.
 };
 
 struct ReadResult {
-  std::optional<Scene> scene;             ///< absent if there is any error
-  Presentation presentation;              ///< how to display the scene; empty if there is any error
-  std::vector<Diagnostic> diagnostics;    ///< every mistake found, in the order of files and lines
+  std::optional<Scene> scene;             ///< Absent if there is any error.
+  Presentation presentation;              ///< How to display the scene; empty if there is any error.
+  std::vector<Diagnostic> diagnostics;    ///< Every mistake found, in the order of files and lines.
   Sources sources;
 };
 

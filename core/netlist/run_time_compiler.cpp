@@ -26,7 +26,7 @@ Environment with_variables(std::span<const RunTimeExpression::Variable> variable
 
 }  // namespace
 
-/// Carries out the instructions of the stack machine with what is known before the run: dimensions, and values of constants.
+/// Carries out the instructions of the stack machine with the values known before the run: dimensions, and constants.
 /// Each operation on a variable becomes a step.
 class RunTimeExpression::Compiler {
   using Op = ExpressionCode::Op;

@@ -18,8 +18,8 @@ namespace {
 
 double sign_of(double x) { return x > 0 ? 1 : x < 0 ? -1 : 0; }
 
-/// Adds `adjoint` times a partial derivative. A factor 0 makes the product 0, whatever the other one is: sqrt(x*x) has the
-/// derivative 0 at x = 0, and what is raised to a constant power does not ask for its logarithm.
+/// Adds `adjoint` times a partial derivative. A factor 0 makes the product 0, even of infinity: sqrt(x*x) has the
+/// derivative 0 at x = 0, and the base of a constant power needs no logarithm.
 void add_product(double adjoint, double partial, double& sum) {
   if (partial != 0) sum += adjoint * partial;
 }

@@ -30,7 +30,7 @@ Domain domain_of(const Scene& scene, const Record& record) {
       return domain_of(scene, scene.nodes[static_cast<std::size_t>(assembly.a == ground ? assembly.b : assembly.a)]);
     }
     case Record::Subject::block: {
-      // That of what it feeds, or else takes in, for the names of units alone.
+      // The domain of the element that it feeds, or else of its input; only names of units depend on it.
       for (const SceneFeed& feed : scene.feeds) {
         if (feed.block == record.index) return domain_of(scene, scene.elements[static_cast<std::size_t>(feed.element)]);
       }

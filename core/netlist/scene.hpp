@@ -41,35 +41,35 @@ bool same_values(std::span<const double> one, std::span<const double> other);
 inline constexpr double time_rounding = 1e-9;
 
 struct SceneNode {
-  std::string name;             ///< its path: `drum`, `pivot.mid`, `bingham.node1`
-  double position = not_given;  ///< m | rad
-  double velocity = not_given;  ///< m/s | rad/s
-  Spot spot;                    ///< where it is first named, or its `[nodes]` entry if it has one
-  std::optional<Domain> domain = {};  ///< if not that of the scene: see domain_of
-  double scale = 1;             ///< its velocity is multiplied by this: core/network/transmission.hpp
+  std::string name;             ///< Its path: `drum`, `pivot.mid`, `bingham.node1`.
+  double position = not_given;  ///< m | rad.
+  double velocity = not_given;  ///< m/s | rad/s.
+  Spot spot;                    ///< Where it is first named, or its `[nodes]` entry if it has one.
+  std::optional<Domain> domain = {};  ///< If not that of the scene: see domain_of.
+  double scale = 1;             ///< Its velocity is multiplied by this: core/network/transmission.hpp.
 };
 
 struct SceneElement {
-  /// Of an element by a law of the netlist, which is made with it: a state, or a part that no one records or draws.
+  /// An element that a law of the netlist brings along: one of its states, or a part that is neither recorded nor drawn.
   enum class Part : char { none, state, inner };
 
-  std::string name;    ///< its path: `k1`, `pivot.k1`, `chain.17`
-  int declaration = 0; ///< index into the declarations that the scene was read with
+  std::string name;    ///< Its path: `k1`, `pivot.k1`, `chain.17`.
+  int declaration = 0; ///< Index into the declarations that the scene was read with.
   NodeId a = ground;
-  NodeId b = ground;   ///< ground for an element `at` one node
-  NodeId support = ground;  ///< of a transmission: the node against which it turns
-  bool at = false;     ///< written with `at`
+  NodeId b = ground;   ///< Ground for an element `at` one node.
+  NodeId support = ground;  ///< For a transmission: the node against which it turns.
+  bool at = false;     ///< Written with `at`.
   Part part = Part::none;
-  Shared<double> values;        ///< SI, one for each declared parameter; not_given for signals and absent optional values
-  std::bitset<32> given;        ///< for each declared parameter: the value is given by the netlist, not a default
-  Shared<Signal> signals;       ///< signals of the parameters in signal_parameters, in order of declaration
-  Shared<int> signal_parameters;  ///< indices into Declaration::parameters
-  std::shared_ptr<const Characteristics> characteristics;  ///< nullptr if it has none
-  Spot spot;           ///< of its name
-  std::optional<Domain> domain = {};  ///< that of its first node, if not that of the scene: see domain_of
-  double scale = 1;    ///< its velocity is multiplied by this: core/network/transmission.hpp
-  /// Of a transmission that is an equation of its own: these factors times the velocities of a, b and support sum to 0. All 0 for
-  /// any other element: core/network/transmission.hpp
+  Shared<double> values;        ///< SI, one for each declared parameter; not_given for signals and absent optional values.
+  std::bitset<32> given;        ///< For each declared parameter: the value is given by the netlist, not a default.
+  Shared<Signal> signals;       ///< Signals of the parameters in signal_parameters, in order of declaration.
+  Shared<int> signal_parameters;  ///< Indices into Declaration::parameters.
+  std::shared_ptr<const Characteristics> characteristics;  ///< nullptr if it has none.
+  Spot spot;           ///< Of its name.
+  std::optional<Domain> domain = {};  ///< The domain of its first node, if the scene has another: see domain_of.
+  double scale = 1;    ///< Its velocity is multiplied by this: core/network/transmission.hpp.
+  /// For a transmission that is an equation of its own: these factors times the velocities of a, b and support sum to 0. All are 0
+  /// for any other element: core/network/transmission.hpp
   std::array<double, 3> row{};
 
   bool has_row() const { return row[0] != 0; }
@@ -103,7 +103,7 @@ struct SceneAssembly {
 /// Unit of a block's output. If nothing determines the unit it is `open`: the output is then taken as SI for any quantity.
 struct BlockUnit {
   Dimension dimension;
-  double radian = 0;  ///< exponent of rad, for messages
+  double radian = 0;  ///< Exponent of rad, for messages.
   bool open = true;
 };
 
@@ -112,16 +112,16 @@ class SwitchedFunction;
 /// An element that computes a signal from others; name, declaration and values are stored in the element.
 struct SceneBlock {
   struct Input {
-    bool from_block;  ///< the output of another block; else a quantity of the network
-    int index;        ///< into Scene::blocks or Scene::sensed
+    bool from_block;  ///< The output of another block; else a quantity of the network.
+    int index;        ///< Into Scene::blocks or Scene::sensed.
     double sign;
   };
   int element = 0;
   std::vector<Input> inputs;
   BlockUnit unit;
-  std::shared_ptr<const SwitchedFunction> function = {};  ///< of the inputs, and of the time in the scene as last; nullptr: none
-  std::vector<std::vector<double>> coefficients = {};     ///< of its parameters of that kind: highest power first, SI
-  bool of_stop_when = false;  ///< stands in no file: made for `simulate.stop_when`
+  std::shared_ptr<const SwitchedFunction> function = {};  ///< A function of the inputs, and of the time in the scene as last; nullptr: none.
+  std::vector<std::vector<double>> coefficients = {};     ///< Coefficients of its parameters of that kind: highest power first, SI.
+  bool of_stop_when = false;  ///< Stands in no file: made for `simulate.stop_when`.
 };
 
 /// The signal of `element` for one of its parameters is the output of `block`, times `sign`.
@@ -131,26 +131,26 @@ struct Record {
   enum class Subject { node, element, assembly, block, expression };
   enum class Channel {
     position, velocity, displacement, force,
-    acceleration,  ///< of a node
-    power,         ///< of an element: its force times its velocity [W]
-    dissipated,    ///< of an element: the part of its power that becomes heat [W]
-    energy,        ///< of an element: stored in it [J]
-    out,           ///< of a block
-    value,         ///< of an expression
+    acceleration,  ///< For a node.
+    power,         ///< For an element: its force times its velocity [W].
+    dissipated,    ///< For an element: the part of its power that becomes heat [W].
+    energy,        ///< For an element: stored in it [J].
+    out,           ///< For a block.
+    value,         ///< For an expression.
   };
-  std::string path;  ///< as in the header row: `k1.force`
+  std::string path;  ///< As in the header row: `k1.force`.
   Subject subject = Subject::node;
-  int index = 0;     ///< into nodes, elements, assemblies, blocks or expressions
+  int index = 0;     ///< Into nodes, elements, assemblies, blocks or expressions.
   Channel channel = Channel::position;
-  double factor = 1;  ///< of the quantity of the network: in common units (core/network/transmission.hpp) not always 1
+  double factor = 1;  ///< Factor of the quantity of the network: in common units (core/network/transmission.hpp) not always 1.
 };
 
 /// A record that is computed from others: an entry `{ name, value }` of `simulate.record`, or the sum of a quantity over the
 /// elements of an assembly.
 struct SceneExpression {
-  std::string name;              ///< path of its record
-  std::vector<Record> operands;  ///< none of them is an expression
-  std::function<double(std::span<const double>)> value = {};  ///< from the values of the operands [SI]; NaN if it has none
+  std::string name;              ///< Path of its record.
+  std::vector<Record> operands;  ///< There is no expression among them.
+  std::function<double(std::span<const double>)> value = {};  ///< From the values of the operands [SI]; NaN if it has none.
   BlockUnit unit;
 };
 
@@ -159,16 +159,16 @@ struct SceneExpression {
 struct Claim {
   enum class Figure { at, final, max, min, mean, rms, crossing, time_of_max, time_of_min };
   Figure figure = Figure::final;
-  int record = 0;              ///< into Scene::claimed
-  int per = -1;                ///< into Scene::claimed: the figure is divided by the same figure of this record
-  double time = not_given;     ///< time of Figure::at [s]
-  double level = not_given;    ///< level of Figure::crossing, in the record's unit
-  double from = 0, to = 0;     ///< part of the run that is evaluated [s]
-  double least = 0, most = 0;  ///< bounds, SI; for a crossing, of its time [s]
-  double within = not_given;   ///< tolerance on both sides; if not given, the accuracy of the run, as a fraction
+  int record = 0;              ///< Into Scene::claimed.
+  int per = -1;                ///< Into Scene::claimed: the figure is divided by the same figure of this record.
+  double time = not_given;     ///< Time of Figure::at [s].
+  double level = not_given;    ///< Level of Figure::crossing, in the record's unit.
+  double from = 0, to = 0;     ///< Part of the run that is evaluated [s].
+  double least = 0, most = 0;  ///< Bounds, SI; for a crossing, of its time [s].
+  double within = not_given;   ///< Tolerance on both sides; if not given, the accuracy of the run, as a fraction.
   bool fraction = false;       ///< `within` is relative: to the record's largest magnitude in the run, to the run's length
-                               ///< (crossing), or to the claimed ratio
-  Spot spot;                   ///< of the claimed value
+                               ///< (crossing), or to the claimed ratio.
+  Spot spot;                   ///< Place of the claimed value.
 };
 
 /// Whether the figure is a time.
@@ -176,54 +176,54 @@ bool is_time(Claim::Figure figure);
 
 /// Closed form of a record, from `[exact]`.
 struct ExactRecord {
-  int record = 0;                               ///< into Scene::records
-  std::function<double(double t)> value = {};  ///< SI, at a time of the scene; NaN if the form has no finite value
+  int record = 0;                               ///< Into Scene::records.
+  std::function<double(double t)> value = {};  ///< SI, at a time of the scene; NaN if the form has no finite value.
   Spot spot;
 };
 
 /// A netlist, checked and flattened: values are in SI, references resolved; models, series, parallel and repeat expanded.
 struct Scene {
   std::string title;
-  Domain domain = Domain::translation;   ///< of nodes and elements that say nothing else
-  std::vector<SceneNode> nodes;          ///< [0] is ground
-  std::vector<SceneElement> elements;    ///< in the order of the file
+  Domain domain = Domain::translation;   ///< Domain of nodes and elements that name no other.
+  std::vector<SceneNode> nodes;          ///< [0] is ground.
+  std::vector<SceneElement> elements;    ///< In the order of the file.
   std::vector<SceneAssembly> assemblies;
-  std::vector<SceneBlock> blocks;        ///< in the order of the file
-  std::vector<Record> sensed;            ///< quantities of the network that blocks use as inputs
+  std::vector<SceneBlock> blocks;        ///< In the order of the file.
+  std::vector<Record> sensed;            ///< Quantities of the network that blocks use as inputs.
   std::vector<SceneFeed> feeds;
   std::vector<SceneExpression> expressions;
-  std::vector<Record> records;           ///< in the order asked for; if not asked for: all, in the order of the file
+  std::vector<Record> records;           ///< In the order asked for; if not asked for: all, in the order of the file.
 
-  std::vector<Record> claimed;  ///< records that claims refer to, each once
-  std::vector<Claim> claims;    ///< of `[expect]`, in the order of the file
+  std::vector<Record> claimed;  ///< Records that claims refer to, each once.
+  std::vector<Claim> claims;    ///< Claims of `[expect]`, in the order of the file.
 
   std::vector<ExactRecord> exact;
 
-  std::vector<EffectLeftOut> without;  ///< effects that are left out
-  std::vector<std::string> keep;       ///< names of reductions that are not applied: core/network/reductions.hpp
+  std::vector<EffectLeftOut> without;  ///< Effects that are left out.
+  std::vector<std::string> keep;       ///< Names of reductions that are not applied: core/network/reductions.hpp.
 
   /// How the time between two events is crossed.
   enum class Method {
-    automatic,  ///< by exact arcs where laws and inputs are linear between events, else by IDA
+    automatic,  ///< By exact arcs where laws and inputs are linear between events, else by IDA.
     ida,
     exact,
   };
   Method method = Method::automatic;
   Spot method_spot;
   enum class StartFrom {
-    given,   ///< the start values of nodes and elements
-    rest,    ///< at rest, all forces balanced
-    steady,  ///< in steady motion under the inputs at the start
+    given,   ///< The start values of nodes and elements.
+    rest,    ///< At rest, all forces balanced.
+    steady,  ///< In steady motion under the inputs at the start.
   };
   StartFrom start_from = StartFrom::given;
-  bool common_units = false;  ///< made by in_common_units: core/network/transmission.hpp
+  bool common_units = false;  ///< Made by in_common_units: core/network/transmission.hpp.
   double start = 0;         ///< s
-  double stop = 0;          ///< s, > start
-  int stop_when = -1;       ///< block whose output ends the run as soon as it is not 0; -1: none
-  double accuracy = 1e-6;   ///< relative, 1e-12 .. 0.1
-  double output_every = 0;  ///< s: rows at start + k output_every, k = 0 .. output_intervals
+  double stop = 0;          ///< s, > start.
+  int stop_when = -1;       ///< Block whose output ends the run as soon as it is not 0; -1: none.
+  double accuracy = 1e-6;   ///< Relative, 1e-12 .. 0.1.
+  double output_every = 0;  ///< s: rows at start + k output_every, k = 0 .. output_intervals.
   std::int64_t output_intervals = 0;
-  bool output_events = false;  ///< also a pair of rows at every event
+  bool output_events = false;  ///< Also a pair of rows at every event.
 };
 
 /// Calls visit(record) for the record itself, or for each operand of an expression.
@@ -239,7 +239,7 @@ void for_each_operand(const Scene& scene, const Record& record, Visit visit) {
 /// A block in messages: "block `lag`"; for a part of an element by a law that element, "`rubbing`".
 std::string block_in_words(const SceneElement& block);
 
-/// The domain of a node, of an element (that of its first node), and of what a record belongs to.
+/// The domain of a node, of an element (by its first node), and of the node or element that a record belongs to.
 Domain domain_of(const Scene& scene, const SceneNode& node);
 Domain domain_of(const Scene& scene, const SceneElement& element);
 Domain domain_of(const Scene& scene, const Record& record);

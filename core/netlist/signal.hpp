@@ -20,25 +20,25 @@ class Curve;
 /// smoothly there.
 struct Piece {
   double origin = 0;     ///< s
-  double level = 0;      ///< unit of the signal
-  double slope = 0;      ///< unit of the signal / s
-  double amplitude = 0;  ///< unit of the signal
+  double level = 0;      ///< Unit of the signal.
+  double slope = 0;      ///< Unit of the signal / s.
+  double amplitude = 0;  ///< Unit of the signal.
   double phase = 0;      ///< rad
   double omega = 0;      ///< rad/s
   double chirp = 0;      ///< rad/s^2
-  const Curve* curve = nullptr;  ///< if given, the value is that of this curve; the Signal owns it
-  double end = std::numeric_limits<double>::infinity();  ///< s: the next discontinuity of the signal or a derivative
-  bool integrated = false;  ///< the value is `begin_value` plus the integral of the function above from `begin` on
+  const Curve* curve = nullptr;  ///< If given, the value is that of this curve; the Signal owns it.
+  double end = std::numeric_limits<double>::infinity();  ///< s: the next discontinuity of the signal or a derivative.
+  bool integrated = false;  ///< The value is `begin_value` plus the integral of the function above from `begin` on.
   double begin = 0;         ///< s
-  double begin_value = 0;   ///< unit of the integral
+  double begin_value = 0;   ///< Unit of the integral.
 
   /// The integral of this piece, with this value at t.
   Piece integral_from(double t, double value) const;
   /// The function that an integral is taken of; else the piece itself.
   Piece integrand() const;
   double value(double t) const;
-  double rate(double t) const;       ///< d value / dt
-  double curvature(double t) const;  ///< d2 value / dt2
+  double rate(double t) const;       ///< d value / dt.
+  double curvature(double t) const;  ///< d2 value / dt2.
   /// Integral of value from `from` to `to`, in closed form, accurate to round-off. For a chirp see fresnel.hpp.
   double integral(double from, double to) const;
   /// Bound on the round-off of value(t), including that of t and of breakpoints: where two pieces meet continuously their
@@ -49,16 +49,16 @@ struct Piece {
   double largest(double a, double b) const;
   double largest_rate(double a, double b) const;
   double largest_curvature(double a, double b) const;
-  double largest_third(double a, double b) const;  ///< of d3 value / dt3
-  double fastest() const;  ///< about the largest angular frequency [rad/s]; 0 if nothing oscillates
+  double largest_third(double a, double b) const;  ///< Largest of d3 value / dt3.
+  double fastest() const;  ///< About the largest angular frequency [rad/s]; 0 if nothing oscillates.
 
  private:
-  double spin(double a, double b) const;  ///< rad/s: the largest angular frequency
+  double spin(double a, double b) const;  ///< rad/s: the largest angular frequency.
   // These take the function as it is, `integrated` or not.
   double function(double t) const;
   double slope_at(double t) const;
   double area(double from, double to) const;
-  double area_of_area(double from, double to) const;  ///< integral over t of area(from, t)
+  double area_of_area(double from, double to) const;  ///< Integral over t of area(from, t).
   double largest_function(double a, double b) const;
   double largest_slope(double a, double b) const;
 };
@@ -110,7 +110,7 @@ class Signal {
   Signal times(double factor) const;
 
   const Shape& shape() const { return *shape_; }
-  /// Of a smooth table, between its jumps; else nullptr.
+  /// The curves of a smooth table, between its jumps; else nullptr.
   const std::vector<Curve>* curves() const { return curves_.get(); }
 
  private:

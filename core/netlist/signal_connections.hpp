@@ -12,7 +12,7 @@
 
 namespace rheonet {
 
-/// Reads the inputs of a block: `in = "drum.velocity"`, or `in = ["command", "-drum.velocity"]` for several. Those of a function may
+/// Reads the inputs of a block: `in = "drum.velocity"`, or `in = ["command", "-drum.velocity"]` for several. The inputs of a function may
 /// have names: `in = { w = "drum.velocity" }`.
 std::vector<SignalConnection> read_inputs(const Declaration& declaration, const std::string& called, Spot spot, TableReader& reader,
                               DiagnosticList& diagnostics);

@@ -17,7 +17,7 @@ struct TableFile {
   Number unit;                                    ///< 1 in the unit of the values; plain if the file gives none
 };
 
-/// What the first column of a table holds.
+/// Quantity of the first column of a table.
 struct TableAbscissa {
   std::optional<Quantity> quantity = Quantity::time;  ///< absent: any
   std::string name = "time";

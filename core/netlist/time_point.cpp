@@ -27,7 +27,7 @@ TimePoint beat(double begin, double number, double interval) {
   const auto [numerator, denominator] = decimal(interval);
   const double product = number * numerator, length = product / denominator;
   if (!std::isfinite(length)) return begin + length;
-  // What the product and the quotient leave over.
+  // The remainders of the product and of the quotient.
   const double rest = std::fma(number, numerator, -product) + std::fma(-length, denominator, product);
   return TimePoint(begin, length) + rest / denominator;
 }

@@ -23,7 +23,7 @@ namespace {
 using UnitResult = std::variant<Unit, TextError>;
 
 /// Units that UDUNITS-2 does not know, interprets differently, or gives with less than double precision (0.2780139 N for an
-/// ounce of force); and those in daily use, as it takes longer to read its database than to simulate a small scene.
+/// ounce of force), and units in daily use. Reading its database takes longer than simulating a small scene.
 struct Definition {
   std::string_view name;
   double factor;

@@ -424,10 +424,10 @@ class Finder {
 
   Network& network_;
   const Scene& scene_;
-  std::size_t first_added_ = 0;         ///< number of the first of `added_` among all blocks
-  std::vector<std::pair<int, const Network::Slider*>> powers_of_sliders_;  ///< blocks that take them in
-  std::vector<Blocks::Block> added_;    ///< powers of elements that blocks take in, and states of transfer functions
-  std::vector<char> open_;  ///< blocks whose feedback is left out: they sense no unknown of the network; empty: none
+  std::size_t first_added_ = 0;         ///< Number of the first of `added_` among all blocks.
+  std::vector<std::pair<int, const Network::Slider*>> powers_of_sliders_;  ///< Blocks that take them in.
+  std::vector<Blocks::Block> added_;    ///< Powers of elements that blocks take in, and states of transfer functions.
+  std::vector<char> open_;  ///< Blocks whose feedback is left out: they sense no unknown of the network; empty: none.
   Blocks result_;
 };
 

@@ -16,15 +16,15 @@ struct Blocks {
   struct Sensor {
     enum class What { position, velocity, force };
     What what;
-    int index;        ///< a node of the network (position, velocity), or an element of the scene (force)
-    int motion = -1;  ///< the given motion that prescribes the node: the signal is then a function of time alone; -1
-    int record = 0;   ///< index into Scene::sensed, for messages; -1: the law of an element needs it
+    int index;        ///< A node of the network (position, velocity), or an element of the scene (force).
+    int motion = -1;  ///< The given motion that prescribes the node: the signal is then a function of time alone; -1.
+    int record = 0;   ///< Index into Scene::sensed, for messages; -1: the law of an element needs it.
   };
   struct Input {
-    bool from_block;  ///< otherwise `index` is a sensor
+    bool from_block;  ///< Otherwise `index` is a sensor.
     int index;
     double sign;
-    std::size_t argument = 0;  ///< of a function, to which it adds
+    std::size_t argument = 0;  ///< Argument of the function to which it adds.
   };
   /// The input u of the law is the sum of `inputs`, or `signal` if the block generates one. If there is a `function`, the
   /// output is its value; each argument is the sum of some inputs, and the last one is the time in the scene.
@@ -35,14 +35,14 @@ struct Blocks {
     Signal signal;
     std::vector<Input> inputs;
     std::shared_ptr<const SwitchedFunction> function = {};
-    std::optional<std::vector<Input>> steady = {};  ///< of a state: its value in equilibrium is the sum of these; absent: as its law says
+    std::optional<std::vector<Input>> steady = {};  ///< For a state: its value in equilibrium is the sum of these; absent: as its law says.
     /// Its present output does not depend on its present input.
     bool breaks_loops() const { return law.state || law.delay > 0; }
   };
 
-  std::vector<Block> blocks;   ///< the blocks of the scene, followed by rates, integrals, states and varying parameters (see find_blocks)
+  std::vector<Block> blocks;   ///< The blocks of the scene, followed by rates, integrals, states and varying parameters (see find_blocks).
   std::vector<Sensor> sensors;
-  std::vector<int> order;      ///< an order of evaluation in which each block follows those whose present outputs it needs
+  std::vector<int> order;      ///< An order of evaluation in which each block follows those whose present outputs it needs.
 };
 
 /// Finds the blocks of a network; time counts from the scene's start. A motion whose position a block gives follows an added

@@ -23,16 +23,16 @@ class SwitchedFunction;
 
 /// The role of an element in a network. Structural analysis depends on nothing else of a law.
 enum class Role {
-  deflection,  ///< force from a deflection p of its own: f = force(p), p' = w - creep(f). Springs and all laws with a memory
-  rate,        ///< force from the relative velocity: f = force(w), or w = rate(f). Dashpots
-  slip,        ///< sticks under any force up to a bound, otherwise slips at a constant force. Ideal sliders
-  mass,        ///< inertia of a node
-  inerter,     ///< f = b w'
-  train,       ///< a transmission that is an equation between the velocities of up to three nodes: SceneElement::row
-  motion,      ///< prescribes a node's motion
-  force,       ///< applies a given force
-  block,       ///< not part of the network: computes a signal from other signals
-  nothing,     ///< carries no force: a law at a limit of its parameters
+  deflection,  ///< Force from a deflection p of its own: f = force(p), p' = w - creep(f). Springs and all laws with a memory.
+  rate,        ///< Force from the relative velocity: f = force(w), or w = rate(f). Dashpots.
+  slip,        ///< Sticks under any force up to a bound, otherwise slips at a constant force. Ideal sliders.
+  mass,        ///< Inertia of a node.
+  inerter,     ///< f = b w'.
+  train,       ///< A transmission that is an equation between the velocities of up to three nodes: SceneElement::row.
+  motion,      ///< Prescribes a node's motion.
+  force,       ///< Applies a given force.
+  block,       ///< Not part of the network: computes a signal from other signals.
+  nothing,     ///< Carries no force: a law at a limit of its parameters.
 };
 
 /// All elements of one deflection law, in contiguous arrays. One call evaluates them all.
@@ -48,7 +48,7 @@ class DeflectionBatch {
   /// The same, with the derivatives with respect to p.
   virtual void linearise(const double* p, double* f, double* df, double* c, double* dc) const = 0;
 
-  /// Of a law with contacts: the side of element i that is in contact, -1, 1, or 0 for none. Absent for other laws. A mass may
+  /// For a law with contacts: the side of element i that is in contact, -1, 1, or 0 for none. Absent for other laws. A mass may
   /// touch a side and leave it within one step.
   virtual std::optional<int> contact(std::size_t) const { return {}; }
 
@@ -171,8 +171,8 @@ class RateBatch {
 
 /// Bounds of the force of a set-valued law in one direction of motion: magnitudes, infinite where it never moves that way [N].
 struct Bounds {
-  Dual sliding;    ///< while it slips
-  Dual breakaway;  ///< while it sticks; not less than `sliding`
+  Dual sliding;    ///< While it slips.
+  Dual breakaway;  ///< While it sticks; not less than `sliding`.
 };
 
 /// A law of the role `slip`, at one time. It sticks (w = 0) while -backward.breakaway <= f <= forward.breakaway. It slips with
@@ -199,9 +199,9 @@ struct Box {
 
 /// A law of the role `slip` that has a force only in contact, and none while it is apart. Its gauge measures the displacement.
 struct Contact {
-  double lowest, highest;  ///< displacements at which it is in contact; infinite where there is no such side [m]
-  Box lower, upper;        ///< its box there; without force where there is no such side
-  double restitution;      ///< velocity after an impact over that before it, turned round
+  double lowest, highest;  ///< Displacements at which it is in contact; infinite where there is no such side [m].
+  Box lower, upper;        ///< Its box there; without force where there is no such side.
+  double restitution;      ///< Velocity after an impact over that before it, turned round.
 
   const Box& at(int side) const { return side < 0 ? lower : upper; }
   double bound(int side) const { return side < 0 ? lowest : highest; }
@@ -212,8 +212,8 @@ struct Contact {
 ///     min((m - bearing_a)/efficiency_a, efficiency_b (m - bearing_b))   while it turns backwards,
 /// the first term if a drives, the second one if b does; at rest any force between the two.
 struct Loss {
-  double efficiency_a = 1, efficiency_b = 1;  ///< while a drives, while b drives; 0 or less: b cannot drive
-  double bearing_a = 0, bearing_b = 0;        ///< friction of the bearings, seen at a [N]
+  double efficiency_a = 1, efficiency_b = 1;  ///< While a drives, while b drives; 0 or less: b cannot drive.
+  double bearing_a = 0, bearing_b = 0;        ///< Friction of the bearings, seen at a [N].
 
   bool none() const { return efficiency_a == 1 && efficiency_b == 1 && bearing_a == 0 && bearing_b == 0; }
 
@@ -244,14 +244,14 @@ struct Loss {
 ///     u at the last multiple of `period`                       if it samples
 ///     gain u, but not beyond `lower` and `upper`               else
 struct BlockLaw {
-  double gain = 1;     ///< [unit of the output / unit of the inputs], for a state divided by s
+  double gain = 1;     ///< [unit of the output / unit of the inputs], for a state divided by s.
   double lower = -std::numeric_limits<double>::infinity(), upper = std::numeric_limits<double>::infinity();
   bool state = false;
   double leak = 0;     ///< [1/s]
   double delay = 0;    ///< [s]
-  double period = 0;   ///< between samples [s]; 0: it does not sample
-  double quantum = 0;  ///< samples are rounded to multiples of this [unit of the output]; 0: they are not
-  double initial = 0;  ///< [unit of the output]
+  double period = 0;   ///< Between samples [s]; 0: it does not sample.
+  double quantum = 0;  ///< Samples are rounded to multiples of this [unit of the output]; 0: they are not.
+  double initial = 0;  ///< [unit of the output].
 
   bool limits() const { return upper < std::numeric_limits<double>::infinity() || lower > -std::numeric_limits<double>::infinity(); }
 };
@@ -260,16 +260,16 @@ struct BlockLaw {
 struct LinearSpring {
   double stiffness;     ///< N/m
   double rest;          ///< m
-  double force;         ///< at the start [N], replaces `rest`; or not_given
-  double displacement;  ///< at the start [m]; or not_given
+  double force;         ///< At the start [N], replaces `rest`; or not_given.
+  double displacement;  ///< At the start [m]; or not_given.
 };
 
 /// A limit of the parameters at which a law becomes another one.
 struct Limit {
-  std::string when = {};     ///< "damping = inf", for the reference
-  std::string becomes = {};  ///< a component's type; "" for nothing (no force at all)
+  std::string when = {};     ///< "damping = inf", for the reference.
+  std::string becomes = {};  ///< A component's type; "" for nothing (no force at all).
   std::function<bool(std::span<const double>)> applies = {};
-  std::function<std::vector<double>(std::span<const double>)> values = {};  ///< parameters of the new law
+  std::function<std::vector<double>(std::span<const double>)> values = {};  ///< Parameters of the new law.
 };
 
 /// How a type is drawn: paths in a box of 1 x 1, y downwards, in SVG's notation with absolute coordinates (M, L, H, V, C, Q,
@@ -277,9 +277,9 @@ struct Limit {
 /// 0.5) to (1, 0.5). A block has its inputs at x = 0 and its output at (1, 0.5). All of these keep their proportions; the
 /// box of a mass is stretched to fit its label and its whole load.
 struct Symbol {
-  std::string outline = {};  ///< closed, filled with the background
+  std::string outline = {};  ///< Closed, filled with the background.
   std::string lines = {};
-  std::string thin = {};     ///< hatching and shading
+  std::string thin = {};     ///< Hatching and shading.
   std::string solid = {};    ///< filled
 
   bool empty() const { return outline.empty() && lines.empty() && thin.empty() && solid.empty(); }
@@ -291,14 +291,14 @@ struct LawValues : std::span<const double> {
 
   LawValues(std::span<const double> values, const Characteristic* of = nullptr) : std::span<const double>(values), characteristic(of) {}
 };
-using Values = std::vector<LawValues>;  ///< of each element of a batch
+using Values = std::vector<LawValues>;  ///< For each element of a batch.
 
 /// An expression over the displacement `d` [m] and the velocity `w` [m/s] of an element, over `names`, and, beside a deflection law,
 /// over its force `f` [N]; in SI. Empty where the characteristic of the parameter stands in its place.
 struct MotionExpression {
   std::string expression;
   std::map<std::string, double> names;
-  int parameter = -1;  ///< whose value it is; -1: it is a force
+  int parameter = -1;  ///< Whose value it is; -1: it is a force.
 };
 
 /// A law where signals give some of its parameters, in SI: expressions over d and w, as in MotionExpression, and over the names of its
@@ -308,9 +308,9 @@ struct VaryingLaw {
     std::string name, rate;
     double start = 0;
   };
-  std::string force;        ///< force that it resists with
-  std::string stored = {};  ///< energy that it stores: what changes a parameter supplies energy too; "": none
-  bool lossless = false;    ///< all power beyond the stored energy comes from what changes the parameters
+  std::string force;        ///< Force that it resists with.
+  std::string stored = {};  ///< Energy that it stores: what changes a parameter supplies energy too; "": none.
+  bool lossless = false;    ///< All power beyond the stored energy comes from what changes the parameters.
   std::vector<State> states = {};
 };
 
@@ -318,12 +318,12 @@ struct VaryingLaw {
 struct Component {
   Declaration declaration = {};
   Role role = Role::deflection;
-  bool hidden = false;                   ///< no netlist names it: it is that of a characteristic, of a limit, or of a transmission with a row
-  std::vector<Limit> limits = {};  ///< tried in order; the first one that applies replaces the element
-  std::string with_characteristic = {};  ///< the component that an element with a characteristic has instead
-  std::string with_row = {};             ///< the component that a transmission has instead if it is an equation of its own
-  std::function<std::unique_ptr<DeflectionBatch>(const Values&)> deflection = {};  ///< for Role::deflection; and the gauge of a contact
-  std::function<std::unique_ptr<RateBatch>(const Values&)> rate = {};              ///< for Role::rate
+  bool hidden = false;                   ///< No netlist names it: it is that of a characteristic, of a limit, or of a transmission with a row.
+  std::vector<Limit> limits = {};  ///< Tried in order; the first one that applies replaces the element.
+  std::string with_characteristic = {};  ///< The component that an element with a characteristic has instead.
+  std::string with_row = {};             ///< The component that a transmission has instead if it is an equation of its own.
+  std::function<std::unique_ptr<DeflectionBatch>(const Values&)> deflection = {};  ///< For Role::deflection; and the gauge of a contact.
+  std::function<std::unique_ptr<RateBatch>(const Values&)> rate = {};              ///< For Role::rate.
   /// If signals may give parameters of a deflection or rate law: the law of an element with these values, NaN where a signal gives one.
   std::function<VaryingLaw(std::span<const double>)> varying = {};
   /// For Role::slip: the box that belongs to the values of the parameters. These may vary in time (Parameter::may_vary).
@@ -331,7 +331,7 @@ struct Component {
   /// For Role::slip: of a law that has a force only in contact. Its gauge is a deflection law without force, whose contact
   /// (DeflectionBatch::contact) selects the box. `box` is that of the law while it is apart.
   std::function<Contact(std::span<const double>)> contact = {};
-  /// Of a transmission (Role::slip, rigid): velocity of its first node over that of its second, relative to its support. See
+  /// For a transmission (Role::slip, rigid): velocity of its first node over that of its second, relative to its support. See
   /// transmission.hpp.
   std::function<double(std::span<const double>)> ratio = {};
   /// The losses of a transmission. It gets the value at the present speed where a characteristic stands in place of a value.
@@ -340,11 +340,11 @@ struct Component {
   std::function<std::optional<MotionExpression>(const LawValues&)> over_velocity = {};
   /// For Role::deflection: a force beside that of the law, which dissipates; absent if there is none.
   std::function<std::optional<MotionExpression>(std::span<const double>)> beside = {};
-  std::function<BlockLaw(std::span<const double>)> block = {};       ///< for Role::block
-  std::function<LinearSpring(std::span<const double>)> spring = {};  ///< for a deflection law that is a linear spring
-  Symbol drawing = {};             ///< if empty, a plain box
-  Symbol rotational_drawing = {};  ///< in a rotational scene, if it differs
-  std::function<std::string(const Signal&)> signal_drawing = {};  ///< extra lines that show the shape of its signal
+  std::function<BlockLaw(std::span<const double>)> block = {};       ///< For Role::block.
+  std::function<LinearSpring(std::span<const double>)> spring = {};  ///< For a deflection law that is a linear spring.
+  Symbol drawing = {};             ///< If empty, a plain box.
+  Symbol rotational_drawing = {};  ///< In a rotational scene, if it differs.
+  std::function<std::string(const Signal&)> signal_drawing = {};  ///< Extra lines that show the shape of its signal.
 
   const Symbol& drawn_in(Domain domain) const {
     return domain == Domain::rotation && !rotational_drawing.empty() ? rotational_drawing : drawing;

@@ -26,8 +26,8 @@ namespace rheonet {
 class Iwan {
  public:
   struct Pair {
-    double stiffness;  ///< k, N/m
-    double coulomb;    ///< Fc, N
+    double stiffness;  ///< k, N/m.
+    double coulomb;    ///< Fc, N.
   };
 
   /// With kink_share = 0 every yield is an event.
@@ -88,8 +88,8 @@ class Iwan {
  private:
   /// Sums for the case that the first `rank` pairs have yielded.
   struct Sums {
-    double bounds = 0, bound_energy = 0, lost = 0;  ///< of these pairs: Fc, Fc^2/(2 k), Fc y
-    double force = 0, stiffness = 0, energy = 0;    ///< of the other pairs, at the reversal: s f, k, f^2/(2 k)
+    double bounds = 0, bound_energy = 0, lost = 0;  ///< For these pairs: Fc, Fc^2/(2 k), Fc y.
+    double force = 0, stiffness = 0, energy = 0;    ///< Sums over the other pairs, at the reversal: s f, k, f^2/(2 k).
   };
   double travel(double p) const { return s_ * (p - p_ref_); }
   std::size_t yielded(double x, std::size_t limit) const;
@@ -105,23 +105,23 @@ class Iwan {
   const Iwan& turned(double p) const;
 
   std::vector<Pair> pairs_;
-  std::vector<double> rest_, slide_;  ///< of each pair; slide_ at the last reversal
+  std::vector<double> rest_, slide_;  ///< For each pair; slide_ at the last reversal.
   double kink_share_;
   double total_stiffness_ = 0, total_force_ = 0;
 
   // Since the last start or reversal (see branch):
   int s_ = 1;
   double p_ref_ = 0;
-  std::vector<double> f_;                  ///< of each pair, at the reversal [N]
-  std::vector<std::size_t> order_, rank_;  ///< pairs by y, and the inverse
-  std::vector<double> y_;                  ///< of each rank [m]
-  std::vector<Sums> sums_;                 ///< of each rank, 0 .. size()
-  double stiffness_back_ = 0;              ///< slope of a motion that turns back at the reversal point
-  std::size_t passed_ = 0;                 ///< number of pairs whose yield has been accepted
-  std::size_t next_ = 0, next_end_ = 0;    ///< ranks [next_, next_end_): the next kink that is an event
+  std::vector<double> f_;                  ///< For each pair, at the reversal [N].
+  std::vector<std::size_t> order_, rank_;  ///< Pairs by y, and the inverse.
+  std::vector<double> y_;                  ///< For each rank [m].
+  std::vector<Sums> sums_;                 ///< For each rank, 0 .. size().
+  double stiffness_back_ = 0;              ///< Slope of a motion that turns back at the reversal point.
+  std::size_t passed_ = 0;                 ///< Number of pairs whose yield has been accepted.
+  std::size_t next_ = 0, next_end_ = 0;    ///< Ranks [next_, next_end_): the next kink that is an event.
   long branch_ = 0;
   struct Back;
-  mutable std::shared_ptr<const Back> back_;  ///< cached copy of the bundle, reversed at one deflection
+  mutable std::shared_ptr<const Back> back_;  ///< Cached copy of the bundle, reversed at one deflection.
 };
 
 /// Iwan bundles as deflection laws. Their deflections are relative displacements since the start.
@@ -156,7 +156,7 @@ class IwanBatch final : public DeflectionBatch {
   double force_along(std::size_t i, double p, double step, double& slope) const override {
     return bundles_[i].force_along(p, step, slope);
   }
-  bool linear(std::size_t) const override { return true; }  // after stop_at_every_kink
+  bool linear(std::size_t) const override { return true; }  // After stop_at_every_kink.
   bool constant(std::size_t i) const override { return bundles_[i].all_yielded(); }
   Steady steady(std::size_t i) const override { return {bundles_[i].total_force(), 0, bundles_[i].total_force()}; }
   double settle(std::size_t i, double p, double f, int direction) override;

@@ -19,7 +19,7 @@ namespace rheonet {
 
 /// A law between two nodes.
 struct Branch {
-  int element;  ///< index into Scene::elements
+  int element;  ///< Index into Scene::elements.
   NodeId a, b;
 };
 
@@ -43,8 +43,8 @@ struct Network {
     int element;
     std::array<NodeId, 3> node;
     std::array<double, 3> factor;
-    std::optional<Loss> loss = {};  ///< at rest; at the present speed: Inputs::loss
-    int friction = -1;  ///< of its losses: index into `sliders`, between its first node and its support; -1: none
+    std::optional<Loss> loss = {};  ///< At rest; at the present speed: Inputs::loss.
+    int friction = -1;  ///< Of its losses: index into `sliders`, between its first node and its support; -1: none.
   };
   /// With a `block`, the velocity is `sign` times its output, and the position begins at `from` [m] if that is given. A given
   /// acceleration is integrated by such a block.
@@ -60,16 +60,16 @@ struct Network {
   struct VaryingParameter { int parameter, block; double sign; };
   struct Slider {
     Branch branch;
-    Box box;  ///< at constant parameters; else see Inputs::box
-    const Component* component = nullptr;          ///< of its law
-    std::vector<double> values = {};               ///< of its parameters; empty if all are constant
+    Box box;  ///< At constant parameters; else see Inputs::box.
+    const Component* component = nullptr;          ///< Of its law.
+    std::vector<double> values = {};               ///< Of its parameters; empty if all are constant.
     std::vector<VaryingParameter> varying = {};
-    const Characteristic* characteristic = nullptr;  ///< of its friction over the speed
+    const Characteristic* characteristic = nullptr;  ///< Of its friction over the speed.
 
     LawValues law_values() const { return {values, characteristic}; }
-    std::optional<Contact> contact = {};           ///< of a law that has a force only in contact ...
-    int gauge = -1;                                ///< ... and the deflection branch that measures its displacement
-    int train = -1;  ///< whose losses it is: its bounds depend on the force of that train
+    std::optional<Contact> contact = {};           ///< For a law that has a force only in contact ...
+    int gauge = -1;                                ///< ... and the deflection branch that measures its displacement.
+    int train = -1;  ///< Whose losses it is: its bounds depend on the force of that train.
   };
   /// b = -1 for a force at one node. With a `block`, the force is `sign` times its output. The force of an element that `resists`
   /// is the negative of the one that it applies; the output of block `energy` is what it stores [J] (-1: nothing).
@@ -82,8 +82,8 @@ struct Network {
     bool resists = false;
     int energy = -1;
     bool lossless() const { return varying && varying->lossless; }
-    std::optional<VaryingLaw> varying = {};  ///< of an element with parameters that vary: its blocks are made for it
-    std::optional<MotionExpression> beside = {};  ///< of a force beside another law of its element: its block is made for it
+    std::optional<VaryingLaw> varying = {};  ///< For an element with parameters that vary: its blocks are made for it.
+    std::optional<MotionExpression> beside = {};  ///< For a force beside another law of its element: its block is made for it.
   };
   /// Where an element is stored: a branch of `deflections` or `rates`, or an index into sliders, masses, inerters, trains, motions or forces.
   /// If `paired`, an index into `pairs` for either role.
@@ -97,19 +97,19 @@ struct Network {
   std::vector<Slider> sliders;
   std::vector<Mass> masses;
   std::vector<Inerter> inerters;
-  std::vector<Train> trains;  ///< transmissions that are no change of units: transmission.hpp
+  std::vector<Train> trains;  ///< Transmissions that are no change of units: transmission.hpp.
   std::vector<Motion> motions;
   std::vector<Force> forces;
-  std::map<int, int> beside;  ///< of an element: index into `forces` of the force beside its law
+  std::map<int, int> beside;  ///< For an element: index into `forces` of the force beside its law.
   Blocks blocks;
-  std::vector<Place> places;  ///< one for each element of the scene
+  std::vector<Place> places;  ///< One for each element of the scene.
   /// Springs in series with sliders. Their bundles are the last branches of `deflections`, each named after its first
   /// slider.
   std::vector<Pair> pairs;
-  IwanBatch* bundles = nullptr;  ///< nullptr if there are none
-  int first_bundle = 0;          ///< branch of the first one
-  std::vector<NodeId> scene_node;  ///< the scene's number of each node; nodes inside pairs are excluded
-  /// Of each node of the scene: its number here (for a free end, that of the node on which it hangs), or -1 - k between
+  IwanBatch* bundles = nullptr;  ///< nullptr if there are none.
+  int first_bundle = 0;          ///< Branch of the first one.
+  std::vector<NodeId> scene_node;  ///< The scene's number of each node; nodes inside pairs are excluded.
+  /// For each node of the scene: its number here (for a free end, that of the node on which it hangs), or -1 - k between
   /// spring and slider of pair k.
   std::vector<int> node_of;
   FreeEnds free_ends;

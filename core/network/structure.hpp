@@ -8,18 +8,18 @@ namespace rheonet {
 
 /// The equation that determines the velocity of a node.
 enum class Kind : char {
-  known,    ///< ground, or a prescribed motion
-  massive,  ///< its momentum: m dv/dt = sum of forces. It has a mass, inerters lead to a mass or a known node, or it is in a train
-  viscous,  ///< massless, joined by dashpots to a known or massive node: its velocity follows from its force balance
-  floating, ///< massless, joined to others by springs and laws with a memory alone: its balance contains no velocity
+  known,    ///< Ground, or a prescribed motion.
+  massive,  ///< Its momentum: m dv/dt = sum of forces. It has a mass, inerters lead to a mass or a known node, or it is in a train.
+  viscous,  ///< Massless, joined by dashpots to a known or massive node: its velocity follows from its force balance.
+  floating, ///< Massless, joined to others by springs and laws with a memory alone: its balance contains no velocity.
   joined    ///< moves with another node, joined to it by sticking sliders
 };
 
 /// The present mode of each slider.
 struct Modes {
   enum Slide : signed char { backward = -1, stuck = 0, forward = 1 };
-  std::vector<signed char> slider;  ///< of each slider
-  std::vector<char> b_drives;       ///< of each train with losses
+  std::vector<signed char> slider;  ///< For each slider.
+  std::vector<char> b_drives;       ///< For each train with losses.
 };
 
 /// Structural analysis of a network: which equation gives each velocity, so that the DAE has index 1 for any wiring.
@@ -32,29 +32,29 @@ struct Modes {
 /// nodal equations: Estevez Schwarz and Tischendorf 2000.)
 struct Structure {
   struct Group {
-    std::vector<NodeId> nodes;  ///< the first one is the group's reference
-    int tree_branch = -1;       ///< deflection branch towards the root; -1 for a root with a tie
-    int tie = -1;               ///< index into ties, for a group that is itself a root; -1
-    NodeId node = ground;       ///< the end of the branch in this group
-    NodeId parent = ground;     ///< the end of the branch in a group nearer to the root, or at the root
-    double sign = 1;            ///< +1 if the branch's first end is in this group
-    int depth = 0;              ///< number of tree branches to the root
+    std::vector<NodeId> nodes;  ///< The first one is the group's reference.
+    int tree_branch = -1;       ///< Deflection branch towards the root; -1 for a root with a tie.
+    int tie = -1;               ///< Index into ties, for a group that is itself a root; -1.
+    NodeId node = ground;       ///< The end of the branch in this group.
+    NodeId parent = ground;     ///< The end of the branch in a group nearer to the root, or at the root.
+    double sign = 1;            ///< +1 if the branch's first end is in this group.
+    int depth = 0;              ///< Number of tree branches to the root.
   };
   /// sum of flows[k].sign (p' + creep)_k + sum of velocities[k].sign v_k; ground has no term, its velocity is 0.
   struct Term { int index; double sign; };
   struct Loop {
-    int branch = -1;               ///< deflection branch that closes the loop: its own flow has sign +1. A delayed branch
-                                   ///< closes no loop: its flow stands alone, given by past velocities
-    std::vector<Term> flows;       ///< deflection branches
-    std::vector<Term> velocities;  ///< velocities of nodes; of floating nodes relative to the group's reference
+    int branch = -1;               ///< Deflection branch that closes the loop: its own flow has sign +1. A delayed branch
+                                   ///< closes no loop: its flow stands alone, given by past velocities.
+    std::vector<Term> flows;       ///< Deflection branches.
+    std::vector<Term> velocities;  ///< Velocities of nodes; of floating nodes relative to the group's reference.
   };
 
   /// Connected groups that only elements of constant force join to the rest, so that their balance does not depend on their
   /// velocity. Their velocity minimises the sum of squares of the relative velocities of these elements.
   struct Tie {
-    Loop velocity;              ///< of the first group as a whole, negated (`branch` is -1)
-    std::vector<NodeId> nodes;  ///< of all groups of the tie
-    std::vector<int> elements;  ///< of the scene: those that lead out of the groups
+    Loop velocity;              ///< For the first group as a whole, negated (`branch` is -1).
+    std::vector<NodeId> nodes;  ///< Nodes of all groups of the tie.
+    std::vector<int> elements;  ///< Elements of the scene that lead out of the groups.
   };
 
   /// An equation between velocities, v of `pivot` + sum of factors times velocities = 0. The balance of the pivot's forces is that of a
@@ -62,33 +62,33 @@ struct Structure {
   struct Tied {
     struct Term { NodeId node; double factor; };
     NodeId pivot;
-    std::vector<Term> terms;   ///< no pivot of any other
-    std::vector<Term> shares;  ///< of nodes that are not known; without losses the same as in `terms`
-    int train;                 ///< whose equation it was
+    std::vector<Term> terms;   ///< No pivot of any other.
+    std::vector<Term> shares;  ///< Factors at nodes that are not known; without losses the same as in `terms`.
+    int train;                 ///< Whose equation it was.
   };
 
-  std::vector<NodeId> rigid;     ///< of each node: the node to which it is joined, or itself
-  std::vector<Branch> deflections, rates;  ///< the branches of the network, with joined ends replaced
-  std::vector<Branch> sliders;             ///< the sliders, likewise
-  std::vector<char> stuck;                 ///< of each slider
+  std::vector<NodeId> rigid;     ///< For each node: the node to which it is joined, or itself.
+  std::vector<Branch> deflections, rates;  ///< The branches of the network, with joined ends replaced.
+  std::vector<Branch> sliders;             ///< The sliders, likewise.
+  std::vector<char> stuck;                 ///< For each slider.
   std::vector<Branch> inerters;            ///< likewise
-  std::vector<Tied> tied;        ///< the independent equations of the trains, in reduced row echelon form
-  /// Of each train: its forces at its nodes over the force that it hands on. While its losses slip, these are not its factors.
+  std::vector<Tied> tied;        ///< The independent equations of the trains, in reduced row echelon form.
+  /// For each train: its forces at its nodes over the force that it hands on. While its losses slip, these are not its factors.
   std::vector<std::array<double, 3>> train_forces;
-  std::vector<Tie> ties;         ///< their balances contain no unknown: callers must check them
-  std::vector<Kind> kind;        ///< of each node
-  std::vector<int> rank;         ///< of each node: its place in Network::node_order
-  std::vector<int> motion;       ///< of each node: index of the motion that prescribes it, -1
-  std::vector<char> of_time;     ///< of each node: known, and a function of time alone (no block prescribes it)
-  std::vector<int> group;        ///< of each node: index into groups, -1
-  std::vector<double> mass;      ///< of each node: its mass and that of nodes joined to it; its own mass if it is known
-  std::vector<double> own_mass;  ///< of each node, without nodes joined to it
-  /// Of each node: `mass`, and the inertance of the inerters that end there; in a train, force over the acceleration that it causes.
+  std::vector<Tie> ties;         ///< Their balances contain no unknown: callers must check them.
+  std::vector<Kind> kind;        ///< For each node.
+  std::vector<int> rank;         ///< For each node: its place in Network::node_order.
+  std::vector<int> motion;       ///< For each node: index of the motion that prescribes it, -1.
+  std::vector<char> of_time;     ///< For each node: known, and a function of time alone (no block prescribes it).
+  std::vector<int> group;        ///< For each node: index into groups, -1.
+  std::vector<double> mass;      ///< For each node: its mass and that of nodes joined to it; its own mass if it is known.
+  std::vector<double> own_mass;  ///< For each node, without nodes joined to it.
+  /// For each node: `mass`, and the inertance of the inerters that end there; in a train, force over the acceleration that it causes.
   std::vector<double> inertia;
-  std::vector<Group> groups;     ///< sorted by depth: a parent comes before its children
-  std::vector<int> closing;      ///< deflection branches that close a loop (`closed_loop`): not in the tree, and not between
-                                 ///< known nodes unless the law creeps
-  std::vector<char> driven;      ///< of each deflection branch: its deflection is a function of time alone
+  std::vector<Group> groups;     ///< Sorted by depth: a parent comes before its children.
+  std::vector<int> closing;      ///< Deflection branches that close a loop (`closed_loop`): not in the tree, and not between
+                                 ///< known nodes unless the law creeps.
+  std::vector<char> driven;      ///< For each deflection branch: its deflection is a function of time alone.
 };
 
 /// Marks the nodes that have a mass or a prescribed motion, and those that rigid links join to one. No force makes their velocity jump.

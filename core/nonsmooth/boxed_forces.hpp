@@ -32,9 +32,9 @@ class BoxedForces {
   }
 
   enum class Outcome {
-    within,  ///< every force is in its box
-    beyond,  ///< cuts are overloaded: see `cuts`
-    failed,  ///< a condition is not met to round-off: see `failed_node` and `failed_branch`
+    within,  ///< Every force is in its box.
+    beyond,  ///< Cuts are overloaded: see `cuts`.
+    failed,  ///< A condition is not met to round-off: see `failed_node` and `failed_branch`.
   };
   /// `load`: of each node [N], finite. Writes the force of each branch into `force`.
   Outcome solve(const std::vector<double>& load, std::vector<double>& force);
@@ -62,15 +62,15 @@ class BoxedForces {
 
   struct Ends { std::size_t a, b; };
   std::vector<BoxedBranch> branches_;
-  std::vector<Ends> ends_;            ///< of each branch; held ends share the index after the last node
-  std::unique_ptr<Factors> factors_;  ///< of the Laplacian of all branches
-  std::vector<double> difference_;    ///< of each branch: phi_a - phi_b; stored apart because phi has larger round-off
-  std::vector<double> phi_, direction_, along_;  ///< `along_`: of each branch, the difference of `direction_`
-  std::vector<double> left_, magnitude_;         ///< of each node: force out of balance, sum of magnitudes [N]
-  std::vector<int> terms_;                       ///< of each node: number of terms
-  std::vector<char> held_;  ///< of each node: its balance follows from the balances of other nodes
-  std::vector<char> open_;  ///< of each branch: it is in no overloaded cut
-  double grain_ = 0;        ///< round-off of a difference of potentials [N]
+  std::vector<Ends> ends_;            ///< For each branch; held ends share the index after the last node.
+  std::unique_ptr<Factors> factors_;  ///< Factors of the Laplacian of all branches.
+  std::vector<double> difference_;    ///< For each branch: phi_a - phi_b; stored apart because phi has larger round-off.
+  std::vector<double> phi_, direction_, along_;  ///< `along_`: of each branch, the difference of `direction_`.
+  std::vector<double> left_, magnitude_;         ///< For each node: force out of balance, sum of magnitudes [N].
+  std::vector<int> terms_;                       ///< For each node: number of terms.
+  std::vector<char> held_;  ///< For each node: its balance follows from the balances of other nodes.
+  std::vector<char> open_;  ///< For each branch: it is in no overloaded cut.
+  double grain_ = 0;        ///< round-off of a difference of potentials [N].
   std::vector<OverloadedCut> cuts_;
   int failed_node_ = -1, failed_branch_ = -1;
 };

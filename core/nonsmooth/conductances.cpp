@@ -96,11 +96,11 @@ class StarMesh {
     }
   }
 
-  std::vector<std::vector<Neighbour>> later_;  ///< of each unknown: conductances to unknowns eliminated after it
-  std::vector<double> held_;                   ///< of each unknown: its conductance to the held node
-  std::vector<double> sum_;                    ///< of each unknown, its pivot: the sum of `held_` and `later_`
-  std::vector<std::ptrdiff_t> next_;           ///< index into `later_`: first neighbour not yet eliminated
-  std::vector<double> among_;                  ///< conductances of the row of the pivot, by place; 0 between pivots
+  std::vector<std::vector<Neighbour>> later_;  ///< For each unknown: conductances to unknowns eliminated after it.
+  std::vector<double> held_;                   ///< For each unknown: its conductance to the held node.
+  std::vector<double> sum_;                    ///< For each unknown, its pivot: the sum of `held_` and `later_`.
+  std::vector<std::ptrdiff_t> next_;           ///< Index into `later_`: first neighbour not yet eliminated.
+  std::vector<double> among_;                  ///< Conductances of the row of the pivot, by place; 0 between pivots.
 };
 
 }  // namespace

@@ -15,21 +15,21 @@ namespace rheonet {
 struct Certificate {
   /// A run to one tolerance, measured by a run to a hundredth of it.
   struct Round {
-    double tolerance;  ///< of the run that was measured
-    std::size_t worst;  ///< index of the record with the largest relative error
-    RecordError error;  ///< error of this record
+    double tolerance;  ///< Tolerance of the run that was measured.
+    std::size_t worst;  ///< Index of the record with the largest relative error.
+    RecordError error;  ///< Error of this record.
   };
-  bool holds = false;               ///< every record is within the scene's accuracy
-  std::vector<Round> rounds;        ///< if a round has shown the accuracy to hold, it is the last one
-  std::size_t kept = 0;             ///< index of the round whose measured run provides the rows
-  std::vector<RecordError> errors;  ///< of each record in the kept run; empty without a round
-  double until = not_given;         ///< if it does not hold: the first time at which an error exceeds the accuracy [s]
-  std::optional<Imbalance> imbalance;  ///< if it does not hold because of forces out of balance: the worst imbalance
-  std::string obstacle;             ///< error message of a tighter run that could not measure; "" if none was needed, or if
-                                    ///< the limit of double precision was reached
-  Summary summary;                  ///< of the run whose rows are kept
+  bool holds = false;               ///< Every record is within the scene's accuracy.
+  std::vector<Round> rounds;        ///< If a round has shown the accuracy to hold, it is the last one.
+  std::size_t kept = 0;             ///< Index of the round whose measured run provides the rows.
+  std::vector<RecordError> errors;  ///< For each record in the kept run; empty without a round.
+  double until = not_given;         ///< If it does not hold: the first time at which an error exceeds the accuracy [s].
+  std::optional<Imbalance> imbalance;  ///< If it does not hold because of forces out of balance: the worst imbalance.
+  std::string obstacle;             ///< Error message of a tighter run that could not measure; "" if none was needed, or if
+                                    ///< the limit of double precision was reached.
+  Summary summary;                  ///< Summary of the run whose rows are kept.
   int runs = 0;
-  double cpu_seconds = 0;           ///< of all completed runs together
+  double cpu_seconds = 0;           ///< CPU time of all completed runs together.
 
   const Round& result() const { return rounds[kept]; }
 };

@@ -27,14 +27,14 @@ struct ExactArc::Implementation {
   TimePoint begin;
   double length = 0;
   VectorXd y0;
-  MatrixXd given;              ///< coefficients of h by the functions of time since `begin`
-  VectorXd z;                  ///< at `from`
-  double from = 0, step = 0;   ///< of the last step: its start [s since `begin`] and its length [s]
-  StepNodes::Values y, yp;          ///< the solution less y0, and its rate, in the last step
-  StepNodes::Values states, rates;  ///< z and its rate there
-  MatrixXd pushes, given_part, given_rate;  ///< coefficients of three vectors: L h, the part of d that h adds, its rate
-  VectorXd drive;              ///< see LinearEquations::drive
-  mutable double place = not_given;   ///< where in the step the solution was asked for last, as a share of it
+  MatrixXd given;              ///< Coefficients of h by the functions of time since `begin`.
+  VectorXd z;                  ///< At `from`.
+  double from = 0, step = 0;   ///< The last step: its start [s since `begin`] and its length [s].
+  StepNodes::Values y, yp;          ///< The solution less y0, and its rate, in the last step.
+  StepNodes::Values states, rates;  ///< z and its rate there.
+  MatrixXd pushes, given_part, given_rate;  ///< Coefficients of three vectors: L h, the part of d that h adds, its rate.
+  VectorXd drive;              ///< See LinearEquations::drive.
+  mutable double place = not_given;   ///< Where in the step the solution was asked for last, as a share of it.
   mutable StepNodes::Shares shares;   ///< StepNodes::at(place)
   std::vector<double> entries, at_rest;
 

@@ -26,13 +26,13 @@ class Regularisation {
  private:
   const Network& network_;
   double slowest_stop(std::size_t rate, const Growth& growth) const;
-  std::vector<double> applied_;         ///< of each rate branch: linear up to this velocity [m/s]; not_given before `apply`
-  std::vector<double> least_velocity_;  ///< of each dilatant rate branch: least such velocity [m/s]
-  /// Of each rate branch: pseudoplastic, and it may bring a mass to rest, or it is one of several in series that do so or
+  std::vector<double> applied_;         ///< For each rate branch: linear up to this velocity [m/s]; not_given before `apply`.
+  std::vector<double> least_velocity_;  ///< For each dilatant rate branch: least such velocity [m/s].
+  /// For each rate branch: pseudoplastic, and it may bring a mass to rest, or it is one of several in series that do so or
   /// that start from rest together. The force of any other pseudoplastic law follows from its neighbours, and its velocity
   /// from that force: it needs no regularisation.
   std::vector<char> stops_;
-  std::vector<double> mass_;  ///< reduced mass that it stops, with others in series [kg]; 0 if none
+  std::vector<double> mass_;  ///< Reduced mass that it stops, with others in series [kg]; 0 if none.
 };
 
 }  // namespace rheonet

@@ -472,13 +472,13 @@ class Run {
   ModeCache mode_cache_;
   ModeChangeLog mode_changes_;
   std::vector<double> slider_force_;
-  double left_ = 0;  ///< time of `state_` [s]
-  bool ended_ = false;   ///< by `simulate.stop_when`, at the last event
-  std::vector<double> closing_;      ///< velocity with which the contact of each slider has closed last [m/s]
-  double impact_ = -1, hopped_ = 0;  ///< time of the last impact after which a contact was thrown back, and of the one before [s]
-  bool stopped_ = false; ///< the last interval ended with a step that the integrator can continue from
-  long steps_ = 0;       ///< in the last interval
-  bool smooth_ = false;  ///< the last discontinuity was negligible
+  double left_ = 0;  ///< Time of `state_` [s].
+  bool ended_ = false;   ///< By `simulate.stop_when`, at the last event.
+  std::vector<double> closing_;      ///< Velocity with which the contact of each slider has closed last [m/s].
+  double impact_ = -1, hopped_ = 0;  ///< Time of the last impact after which a contact was thrown back, and of the one before [s].
+  bool stopped_ = false; ///< The last interval ended with a step that the integrator can continue from.
+  long steps_ = 0;       ///< In the last interval.
+  bool smooth_ = false;  ///< The last discontinuity was negligible.
   std::shared_ptr<System> system_;
   std::vector<double> y_, yp_;
   std::vector<double> deflections_;  ///< at the end of the last step [m]

@@ -95,7 +95,7 @@ class Tolerances {
   double slider_share(const Quantity& q) const;
   void find_held();
   double local() const;
-  using Scales = std::array<double, sorts>;  ///< of each sort [m/s, m, N, m, unit of the block]
+  using Scales = std::array<double, sorts>;  ///< For each sort [m/s, m, N, m, unit of the block].
   Scales scales_to_come(double time, const Scales& largest) const;
   /// Least relative resolution: of velocities and positions that are small beside a neighbour's, and of the distance between
   /// two nodes relative to their displacement.
@@ -147,82 +147,82 @@ class Tolerances {
   double relative_, dense_;
   BundleCorners bundle_corners_;
   BalanceRounding balance_rounding_;
-  double begin_ = not_given;  ///< start of the run [s]
-  double restarted_ = 0;      ///< time of the last restart [s]
-  double reached_ = 0;        ///< end of the last step [s]
-  double step_ = 0;           ///< length of the last step [s]
-  double ahead_ = 0;   ///< time span of the estimates of `foresee` [s]; 0 once they are forgotten
-  double forget_ = 0;  ///< time at which those estimates expire [s]
-  std::vector<double> size_;                          ///< of each unknown: the largest magnitude since the last restart
-  std::vector<Quantity> quantity_;                    ///< of each unknown
-  std::vector<char> sensed_;                          ///< of each node: a block senses its position
-  std::vector<char> rested_;                          ///< of each slider: it has come to rest or reversed
-  std::vector<signed char> slid_;                     ///< of each slider: the direction of its last motion
+  double begin_ = not_given;  ///< Start of the run [s].
+  double restarted_ = 0;      ///< Time of the last restart [s].
+  double reached_ = 0;        ///< End of the last step [s].
+  double step_ = 0;           ///< Length of the last step [s].
+  double ahead_ = 0;   ///< Time span of the estimates of `foresee` [s]; 0 once they are forgotten.
+  double forget_ = 0;  ///< Time at which those estimates expire [s].
+  std::vector<double> size_;                          ///< For each unknown: the largest magnitude since the last restart.
+  std::vector<Quantity> quantity_;                    ///< For each unknown.
+  std::vector<char> sensed_;                          ///< For each node: a block senses its position.
+  std::vector<char> rested_;                          ///< For each slider: it has come to rest or reversed.
+  std::vector<signed char> slid_;                     ///< For each slider: the direction of its last motion.
   bool any_rested_ = false;
-  std::vector<double> slider_share_;                  ///< of each part: factor by which its sliders tighten tolerances
+  std::vector<double> slider_share_;                  ///< For each part: factor by which its sliders tighten tolerances.
   BlockGains block_gains_;
-  std::array<std::vector<double>, sorts> block_scale_;  ///< largest scale that blocks allow to anything that can be an unknown
-  std::vector<double> least_state_;                   ///< of each state of a block: its least scale
-  std::optional<std::vector<std::pair<int, std::size_t>>> states_of_laws_;  ///< block of a force, state: those that act by that force alone
-  std::vector<double> block_output_seen_;             ///< of each block: largest magnitude of its output
-  /// Of each node, if there are sensors: velocity caused by the round-off of what blocks sense [m/s]; stiffness and damping
+  std::array<std::vector<double>, sorts> block_scale_;  ///< Largest scale that blocks allow to anything that can be an unknown.
+  std::vector<double> least_state_;                   ///< For each state of a block: its least scale.
+  std::optional<std::vector<std::pair<int, std::size_t>>> states_of_laws_;  ///< Block of a force, state: those that act by that force alone.
+  std::vector<double> block_output_seen_;             ///< For each block: largest magnitude of its output.
+  /// For each node, if there are sensors: velocity caused by the round-off of the signals of blocks [m/s]; stiffness and damping
   /// around the node, without blocks, at the last restart [N/m, N s/m].
   std::vector<double> block_rounding_, stiffness_around_, damping_around_;
-  std::vector<double> tied_rounding_;                 ///< of each node in a train: round-off of the equation there [m/s]
-  std::vector<double> block_force_seen_;              ///< of each force of the network: largest magnitude if a block gives it [N]
-  std::vector<char> given_, slider_given_;            ///< of each branch: its velocity is a function of time alone
+  std::vector<double> tied_rounding_;                 ///< For each node in a train: round-off of the equation there [m/s].
+  std::vector<double> block_force_seen_;              ///< For each force of the network: largest magnitude if a block gives it [N].
+  std::vector<char> given_, slider_given_;            ///< For each branch: its velocity is a function of time alone.
   /// Largest magnitude of everything that can be an unknown; positions only where some are.
   std::array<std::vector<double>, sorts> seen_;
-  std::array<std::vector<double>, sorts> foreseen_;   ///< estimated, until `forget_`
-  std::vector<double> force_seen_, flow_seen_;        ///< of each deflection branch
-  std::vector<double> hop_;                           ///< of each: the gauge of a contact: largest velocity since the last contact [m/s]
-  std::vector<double> dashpot_seen_;                  ///< of each rate branch: largest force [N]
-  std::vector<double> slide_seen_;                    ///< of each slider: largest velocity [m/s]
-  std::vector<double> held_seen_;                     ///< of each slider: largest force [N]
-  std::vector<double> relative_seen_;                 ///< of each node: largest velocity relative to a neighbour [m/s]
-  /// Of each node: least of the largest velocities of the sliders there that have slipped [m/s].
+  std::array<std::vector<double>, sorts> foreseen_;   ///< Estimated, until `forget_`.
+  std::vector<double> force_seen_, flow_seen_;        ///< For each deflection branch.
+  std::vector<double> hop_;                           ///< For each: the gauge of a contact: largest velocity since the last contact [m/s].
+  std::vector<double> dashpot_seen_;                  ///< For each rate branch: largest force [N].
+  std::vector<double> slide_seen_;                    ///< For each slider: largest velocity [m/s].
+  std::vector<double> held_seen_;                     ///< For each slider: largest force [N].
+  std::vector<double> relative_seen_;                 ///< For each node: largest velocity relative to a neighbour [m/s].
+  /// For each node: least of the largest velocities of the sliders there that have slipped [m/s].
   std::vector<double> least_slide_;
   /// A dashpot or slider at a node whose position is an unknown: its displacement is a difference of positions, and may be
   /// small beside them.
   struct Gap { NodeId node; Branch branch; };
   std::vector<Gap> gaps_;
-  std::vector<double> gap_seen_;                      ///< of each node: largest displacement over its gaps [m]
-  /// Of each node whose distance from another one is integrated: largest distance from the origin of positions, and the
+  std::vector<double> gap_seen_;                      ///< For each node: largest displacement over its gaps [m].
+  /// For each node whose distance from another one is integrated: largest distance from the origin of positions, and the
   /// larger of that of both nodes [m].
   std::vector<double> place_seen_, way_seen_;
-  std::vector<char> has_gap_;                         ///< of each node: it has a gap at present
-  std::vector<NodeId> part_;                          ///< of each node: representative of its part of the network
-  std::vector<double> longest_;                       ///< of each part: its longest deflection so far [m]
-  std::vector<char> jitters_;                         ///< of each unknown: it jitters with the round-off of time
-  std::vector<double> rounding_;                      ///< of each unknown: its round-off near 0
+  std::vector<char> has_gap_;                         ///< For each node: it has a gap at present.
+  std::vector<NodeId> part_;                          ///< For each node: representative of its part of the network.
+  std::vector<double> longest_;                       ///< For each part: its longest deflection so far [m].
+  std::vector<char> jitters_;                         ///< For each unknown: it jitters with the round-off of time.
+  std::vector<double> rounding_;                      ///< For each unknown: its round-off near 0.
   /// Round-off of a velocity [m/s], and how long it accumulates in the quantity that integrates it [s].
   struct Drift { double velocity = 0, lasting = std::numeric_limits<double>::infinity(); };
-  std::vector<Drift> drift_;                          ///< of each unknown that integrates a velocity
-  // Of each part: round-off of its forces near rest [N], and of its velocities [m/s].
+  std::vector<Drift> drift_;                          ///< For each unknown that integrates a velocity.
+  // For each part: round-off of its forces near rest [N], and of its velocities [m/s].
   std::vector<double> force_rounding_;
-  std::vector<double> plain_rounding_;    ///< without dilatant laws
-  std::vector<double> rounding_at_rest_;  ///< with dilatant laws at rest
-  std::vector<double> rounding_now_;      ///< with dilatant laws at their present forces
-  std::vector<NodeId> balanced_;          ///< of each deflection branch: the node whose balance determines it, -1
-  bool any_balanced_ = false;             ///< some node does, or some dashpot is solved for its force
-  bool any_solved_ = false;               ///< some dashpot is solved for its force
+  std::vector<double> plain_rounding_;    ///< Without dilatant laws.
+  std::vector<double> rounding_at_rest_;  ///< With dilatant laws at rest.
+  std::vector<double> rounding_now_;      ///< With dilatant laws at their present forces.
+  std::vector<NodeId> balanced_;          ///< For each deflection branch: the node whose balance determines it, -1.
+  bool any_balanced_ = false;             ///< Some node does, or some dashpot is solved for its force.
+  bool any_solved_ = false;               ///< Some dashpot is solved for its force.
   /// A branch whose force or deflection follows from a balance. If `held`, its deflection may balance any force.
   struct Follower { Sort sort; std::size_t index; bool held; };
-  std::vector<Follower> followers_;       ///< dashpots first, then deflections
-  BalancedForces balanced_forces_;        ///< of the followers
-  std::vector<double> longest_at_;        ///< of each node: largest deflection at it so far [m]
-  std::vector<StopChain> stop_chains_;    ///< in the present modes
-  std::vector<double> stopping_;          ///< of each node: error of the velocity allowed by the force that stops it [m/s]
-  std::vector<double> carried_seen_;                  ///< of each rate branch: largest velocity common to both ends [m/s]
-  std::vector<double> dashpot_rounding_;  ///< of each: round-off of its force due to velocities [N]
-  std::vector<double> difference_rounding_, slide_rounding_;  ///< of their velocities [m/s]
+  std::vector<Follower> followers_;       ///< Dashpots first, then deflections.
+  BalancedForces balanced_forces_;        ///< Forces of the followers.
+  std::vector<double> longest_at_;        ///< For each node: largest deflection at it so far [m].
+  std::vector<StopChain> stop_chains_;    ///< In the present modes.
+  std::vector<double> stopping_;          ///< For each node: error of the velocity allowed by the force that stops it [m/s].
+  std::vector<double> carried_seen_;                  ///< For each rate branch: largest velocity common to both ends [m/s].
+  std::vector<double> dashpot_rounding_;  ///< For each: round-off of its force due to velocities [N].
+  std::vector<double> difference_rounding_, slide_rounding_;  ///< Round-off of their velocities [m/s].
   double largest_velocity_ = 0;
   double known_velocity_ = 0, applied_force_ = 0;
   bool trusted_ = true;
-  std::vector<double> force_error_;  ///< of each part: error of its forces [N]; empty without dilatant laws
+  std::vector<double> force_error_;  ///< For each part: error of its forces [N]; empty without dilatant laws.
   std::vector<double> slider_noise_, slip_noise_, tolerance_, grain_;
-  std::vector<NodeId> held_;        ///< of each node: representative of those that sticking sliders hold together
-  std::vector<double> held_noise_;  ///< of each of these: sum of the errors of forces there [N]
+  std::vector<NodeId> held_;        ///< For each node: representative of those that sticking sliders hold together.
+  std::vector<double> held_noise_;  ///< For each of these: sum of the errors of forces there [N].
 };
 
 }  // namespace rheonet
