@@ -56,7 +56,12 @@ SteadyStateSolver::Forces SteadyStateSolver::forces_at_start() {
 ConvexNetwork SteadyStateSolver::position_problem(const Forces& forces, const std::vector<int>& direction, std::vector<int>& slider_branch,
                                                   const ConvexNetwork* found) {
   ConvexNetwork problem(static_cast<int>(velocity_.size()));
-  for (std::size_t n = 0; n < velocity_.size(); ++n) problem.load(slot(static_cast<NodeId>(n)), forces.load[n]);
+  for (std::size_t n = 0; n < velocity_.size(); ++n) {
+    const int node = slot(static_cast<NodeId>(n));
+    problem.load(node, forces.load[n]);
+    // Where all tangents are flat, as those of friction at its bound are, a node stays where it was found.
+    if (found) problem.start(node, found->value(node));
+  }
   for (std::size_t j = 0; j < laws_.size(); ++j) {
     const Law& law = laws_[j];
     if (!law.elastic()) continue;

@@ -97,7 +97,13 @@ struct ExactArc::Implementation {
     return given.allFinite() && (misfit.array() <= numerics::arc_misfit * largest.cwiseMax(terms).array()).all();
   }
 
-  bool converged() {
+  /// Bound of the sum of the magnitudes from which an unknown follows in the last step, which had this level.
+  double magnitudes(Index i, const LinearEquations::Level& level) {
+    return equations().of_states().row(i).cwiseAbs().dot(level.largest_states * drive.cwiseAbs()) +
+           given_part.row(i).cwiseAbs().dot(level.largest_functions);
+  }
+
+  bool converged(const LinearEquations::Level& level) {
     const StepNodes& nodes = step_nodes();
     double worst = 1;
     bool all = true;
@@ -105,7 +111,8 @@ struct ExactArc::Implementation {
       const double most = (y.row(i).array() + y0(i)).abs().maxCoeff();
       const double negligible = std::max(numerics::arc_share * tolerance[at(static_cast<int>(i))], numerics::arc_ulps * std::numeric_limits<double>::epsilon() * most);
       const double left = std::abs(y.row(i).dot(nodes.highest)) + std::abs(y.row(i).dot(nodes.second_highest));
-      if (left <= negligible) continue;
+      // Small differences of large terms have their round-off, which no shorter step reduces.
+      if (left <= negligible || left <= numerics::arc_ulps * std::numeric_limits<double>::epsilon() * magnitudes(i, level)) continue;
       all = false;
       if (left <= worst * negligible) continue;
       worst = left / negligible;
@@ -161,7 +168,7 @@ struct ExactArc::Implementation {
     limiting = -1;
     for (;; --level) {
       look(level);
-      if (level == 0 || converged()) break;
+      if (level == 0 || converged(equations().level(level))) break;
     }
     next_level = level + 1;
     return step >= left && longest >= left ? length : from + std::min(step, longest);

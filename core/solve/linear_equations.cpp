@@ -215,6 +215,9 @@ LinearEquations::Level LinearEquations::make_level(double of_step, const Level* 
     rows.leftCols(r) += p.change;
     for (Index j = 0; j < count; ++j) rows.middleCols(r + j * b, b) = p.response[at(static_cast<int>(j))];
   }
+  level.largest_states.resize(r, level.states.cols());
+  for (Index k = 0; k < r; ++k) level.largest_states.row(k) = level.states.middleRows(k * StepNodes::count, StepNodes::count).cwiseAbs().colwise().maxCoeff();
+  level.largest_functions = level.functions.cwiseAbs().rowwise().maxCoeff();
   return level;
 }
 

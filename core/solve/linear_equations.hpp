@@ -68,6 +68,8 @@ class LinearEquations {
     std::array<Propagator, StepNodes::last> at_node;  ///< of each node after the first
     Eigen::MatrixXd states;       ///< by `drive`: the first state at all nodes, then the second, ...
     StepNodes::Values functions;  ///< the functions of time
+    Eigen::MatrixXd largest_states;     ///< largest magnitude in the step of each state, by `drive`
+    Eigen::VectorXd largest_functions;  ///< and of each function of time
   };
   /// The matrices for steps of length h0 2^k.
   const Level& level(int k);
