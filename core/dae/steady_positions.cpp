@@ -126,7 +126,7 @@ bool SteadyStateSolver::find_positions() {
   for (again = true; again; again = !agree(trials)) {
     ConvexNetwork refined = position_problem(forces, direction, slider_branch, &problem);
     fix_positions(refined, forces.hang);
-    if (refined.solve() != ConvexNetwork::Outcome::solved) break;
+    if (refined.solve() != ConvexNetwork::Outcome::solved || !near_tangents(forces, problem, refined)) break;
     problem = std::move(refined);
     state_.train_force = problem.forces_of_equations();
   }
@@ -141,6 +141,22 @@ bool SteadyStateSolver::find_positions() {
   if (!open.empty()) {
     note(fmt::format("no force says where {} {}: {} in the position of the start values", format_list(open),
                      open.size() > 1 ? "are" : "is", open.size() > 1 ? "they start" : "it starts"));
+  }
+  return true;
+}
+
+/// Whether the laws have the forces of their tangents at the `found` displacements still at the `next` ones. The tangents of friction close to its
+/// bound are nearly flat, and round-off of the loads leads far away on them.
+bool SteadyStateSolver::near_tangents(const Forces& forces, const ConvexNetwork& found, const ConvexNetwork& next) const {
+  for (std::size_t j = 0; j < laws_.size(); ++j) {
+    const Law& law = laws_[j];
+    if (!law.elastic()) continue;
+    const int a = slot(network_.deflections[j].a), b = slot(network_.deflections[j].b);
+    const double from = found.difference(a, b), to = next.difference(a, b);
+    double slope = 0, ignored = 0;
+    const double f = law.batch->force_along(law.i, state_.p[j], from, slope);
+    const double by_law = law.batch->force_along(law.i, state_.p[j], to, ignored), by_tangent = f + slope * (to - from);
+    if (std::abs(by_law - by_tangent) > numerics::balance_roundoff * (std::abs(f) + std::abs(forces.elastic[j]) + largest_load_)) return false;
   }
   return true;
 }

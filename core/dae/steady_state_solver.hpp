@@ -128,6 +128,7 @@ class SteadyStateSolver {
   Forces forces_at_start();
   bool find_positions();
   ConvexNetwork position_problem(const Forces& forces, const std::vector<int>& direction, std::vector<int>& slider_branch, const ConvexNetwork* found = nullptr);
+  bool near_tangents(const Forces& forces, const ConvexNetwork& found, const ConvexNetwork& next) const;
   void take_positions(const ConvexNetwork& problem);
   std::vector<std::string> fix_positions(ConvexNetwork& problem, DisjointSets& hang) const;
   // steady_contacts.cpp

@@ -253,7 +253,10 @@ bool SteadyStateSolver::refine_velocities(double scale, TrainForceTrials& trials
     if (slope > 0) problem.add(leader(b.a), leader(b.b), {.backward = slope, .forward = slope});
   }
   add_rates(problem, scale);
-  if (problem.solve() != ConvexNetwork::Outcome::solved) return true;
+  const ConvexNetwork::Outcome outcome = problem.solve();
+  // An excess so small that the regularising slopes have balanced it at a high speed.
+  if (outcome == ConvexNetwork::Outcome::unbounded) refuse_unbalanced(problem, outcome, std::numeric_limits<double>::infinity());
+  if (outcome != ConvexNetwork::Outcome::solved) return true;
   take_velocities(problem);
   state_.train_force = problem.forces_of_equations();
   return agree(trials);

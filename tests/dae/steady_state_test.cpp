@@ -282,6 +282,35 @@ TEST_CASE("steady: what the forces leave open is said") {
   CHECK(notes(bent, "`v1` has the force 1.0027 N, not its start value, 0.5 N"));
 }
 
+TEST_CASE("steady: solid friction in series with a dashpot, pulled just below, at and just above the velocity that makes it slide") {
+  for (const double exponent : {0.0, 0.5, 1.0}) {
+    CAPTURE(exponent);
+    for (const double part : {1 - 1e-7, 1.0, 1 + 1e-7}) {
+      CAPTURE(part);
+      SceneBuilder b = driven(part * Fc / B);
+      b.between("f1", "sfm", "a", "mid", {{"stiffness", sigma}, {"coulomb", Fc}, {"exponent", exponent}});
+      b.between("c1", "dashpot", "mid", "ground", {{"damping", B}});
+      check_stays(b, {{"f1.force", std::min(part, 1.0) * Fc}, {"c1.velocity", std::min(part, 1.0) * Fc / B}});
+    }
+  }
+}
+
+TEST_CASE("no steady state: a load just above what friction holds, however little it is more") {
+  const auto loaded = [](double load) {
+    SceneBuilder b;
+    b.force("push", "tip", constant(load));
+    b.between("k1", "spring", "tip", "a", {{"stiffness", k}});
+    b.at("m1", "mass", "a", {{"mass", m}});
+    b.between("s1", "slider", "a", "ground", {{"coulomb", Fc}});
+    return b;
+  };
+  for (const double part : {1 - 1e-9, 1.0}) check_stays(loaded(part * Fc), {{"s1.force", part * Fc}, {"a.velocity", 0}});
+  for (const double part : {1 + 1e-9, 1 + 1e-7, 1 + 1e-5, 1.1}) {
+    CAPTURE(part);
+    CHECK(refusal_of(loaded(part * Fc)).find("no steady state to start from: what is at node") == 0);
+  }
+}
+
 TEST_CASE("no steady state: the elements and nodes are named") {
   SceneBuilder stretched = driven(v);
   stretched.between("k1", "spring", "a", "mid", {{"stiffness", k}});

@@ -220,6 +220,23 @@ TEST_CASE("arcs: a ball comes to rest after infinitely many bounces") {
   }
 }
 
+TEST_CASE("arcs: forces that nearly cancel, beside a decay within a millionth of a second, take no short steps") {
+  // At first the position of the motion, (1 - cos(w t))/w, is a small difference, and the force of the blocks with it.
+  const Found of = found(R"(drive = { type = "motion", at = "a", velocity = { sine = 1, frequency = 1 } }
+k = { type = "spring", between = ["b", "ground"], stiffness = 1000 }
+c = { type = "dashpot", between = ["b", "ground"], damping = 1e-3 }
+push = { type = "force", at = "b", force = { block = "g" } }
+g = { type = "gain", in = "a.position", gain = "3 N/m" })", "", 0.5, 51, 1e-10);
+  constexpr double w = 2 * M_PI, k = 1000, c = 1e-3, gain = 3;
+  // k x + c x' = (gain/w) (1 - cos(w t))
+  const auto x = [=](double t) {
+    const double size = k * k + c * c * w * w, end = gain / w / k, cosine = gain / w * k / size, sine = gain / w * c * w / size;
+    return end - cosine * std::cos(w * t) - sine * std::sin(w * t) - (end - cosine) * std::exp(-k / c * t);
+  };
+  CHECK_LE(error_of(of.rows, "b.position", x), 1e-12);
+  CHECK_LE(of.summary.steps, 1000);
+}
+
 TEST_CASE("arcs: nodes without masses in a loop of springs and dashpots") {
   // A bridge: between a driven node and ground stand k1 + c1 in series and c2 + k2 in series; a spring joins their middles.
   const std::string elements = R"(drive = { type = "motion", at = "top", position = { step = 0.1, time = 0.2 } }

@@ -3,10 +3,34 @@ import assert from 'node:assert/strict';
 import { spawn, spawnSync } from 'node:child_process';
 import { once } from 'node:events';
 import { chmodSync, existsSync, readFileSync, readdirSync } from 'node:fs';
+import { request } from 'node:http';
 import { networkInterfaces } from 'node:os';
 import { join } from 'node:path';
 import { test } from 'node:test';
+import { gunzipSync } from 'node:zlib';
 import { folderWith, program, remove, rheonet, serve } from './support.mjs';
+
+test('the script and the style of the page come compressed to whoever takes that', async () => {
+  const folder = folderWith({ 'a.toml': '[elements]\n[simulate]\n' });
+  const server = await serve(folder);
+  const get = (name, encoding) =>
+    new Promise((resolve, reject) => {
+      request(`${server.origin}/${name}`, { headers: { ...server.key, 'Accept-Encoding': encoding } }, (answer) => {
+        const parts = [];
+        answer.on('data', (part) => parts.push(part)).on('end', () => resolve({ headers: answer.headers, bytes: Buffer.concat(parts) }));
+      }).on('error', reject).end();
+    });
+  for (const name of ['playground.js', 'playground.css']) {
+    const plain = await get(name, 'identity'), small = await get(name, 'br, gzip');
+    assert.equal(plain.headers['content-encoding'], undefined);
+    assert.equal(small.headers['content-encoding'], 'gzip');
+    assert.equal(small.headers['content-type'], plain.headers['content-type']);
+    assert.ok(small.bytes.length < plain.bytes.length);
+    assert.ok(gunzipSync(small.bytes).equals(plain.bytes));
+  }
+  await server.stop();
+  remove(folder);
+});
 
 test('the netlists that come with rheonet are not changed', async () => {
   const own = spawn(program, ['serve', '--port', '0'], { stdio: ['ignore', 'pipe', 'inherit'] });

@@ -15,9 +15,32 @@ using namespace std::chrono_literals;
 
 constexpr std::size_t longest_body = 1u << 20;  // of a body
 
+/// Answers with bytes as they are. `set_content` would compress them anew for each request, for seconds where they are a script of a megabyte.
+void send(httplib::Response& response, std::string_view bytes, const char* type) {
+  if (bytes.empty()) return response.set_content("", type);
+  response.set_content_provider(bytes.size(), type, [bytes](std::size_t from, std::size_t length, httplib::DataSink& sink) {
+    return sink.write(bytes.data() + from, length);
+  });
+}
+
+void send_text(httplib::Response& response, std::string text, const char* type) {
+  const auto kept = std::make_shared<const std::string>(std::move(text));
+  if (kept->empty()) return response.set_content("", type);
+  response.set_content_provider(kept->size(), type, [kept](std::size_t from, std::size_t length, httplib::DataSink& sink) {
+    return sink.write(kept->data() + from, length);
+  });
+}
+
+void send(httplib::Response& response, const httplib::Request& request, const web::Asset& asset) {
+  const bool compressed = !asset.gzipped.empty() && request.get_header_value("Accept-Encoding").find("gzip") != std::string::npos;
+  if (compressed) response.set_header("Content-Encoding", "gzip");
+  if (!asset.gzipped.empty()) response.set_header("Vary", "Accept-Encoding");
+  send(response, compressed ? asset.gzipped : asset.text, asset.type);
+}
+
 void refuse(httplib::Response& response, int status, const std::string& why) {
   response.status = status;
-  response.set_content(report::to_line({{"error", why}}), "application/json");
+  send_text(response, report::to_line({{"error", why}}), "application/json");
   response.set_header("Connection", "close");
   Server::end_connection();
 }
@@ -28,7 +51,7 @@ void ask_for_token(const httplib::Request& request, httplib::Response& response)
     return refuse(response, 401, "the token of the address that `rheonet serve` has printed is missing, or of another start: open "
                                  "that address again");
   response.status = 401;
-  response.set_content(web::token_page().text.data(), web::token_page().text.size(), web::token_page().type);
+  send(response, request, web::token_page());
   response.set_header("Connection", "close");
   Server::end_connection();
 }
@@ -92,9 +115,7 @@ void Api::attach(Server& server, const std::string& host, const std::string& fra
     return Handled::Unhandled;
   });
   const auto page = [&server](const char* path, const web::Asset& asset) {
-    server.Get(path, [asset](const Request&, Response& response) {
-      response.set_content(asset.text.data(), asset.text.size(), asset.type);
-    });
+    server.Get(path, [asset](const Request& request, Response& response) { send(response, request, asset); });
   };
   page("/", web::playground_page());
   page("/playground.css", web::playground_style());
@@ -112,14 +133,14 @@ void Api::attach(Server& server, const std::string& host, const std::string& fra
 void Api::list(Response& response) const {
   json listing = listing_of(folder_);
   listing["seconds"] = pool_.limits().seconds;
-  response.set_content(report::to_line(listing), "application/json");
+  send_text(response, report::to_line(listing), "application/json");
 }
 
 void Api::open(const Request& request, Response& response) const {
   const std::optional<Folder::Netlist> netlist = folder_.read(request.get_param_value("file"));
   if (!netlist) return refuse(response, 404, "there is no such netlist in the folder");
   response.set_header("ETag", '"' + netlist->version + '"');
-  response.set_content(netlist->text, "text/plain; charset=utf-8");
+  send_text(response, netlist->text, "text/plain; charset=utf-8");
 }
 
 void Api::save(Response& response, const Reader& body) {
@@ -132,7 +153,7 @@ void Api::save(Response& response, const Reader& body) {
   response.status = status_of(written.outcome);
   json answer{{"version", written.version}};
   if (!written.why.empty()) answer["error"] = written.why;
-  response.set_content(report::to_line(answer), "application/json");
+  send_text(response, report::to_line(answer), "application/json");
 }
 
 std::shared_ptr<Job> Api::begin(const std::string& session, std::string task) {

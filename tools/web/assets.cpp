@@ -17,6 +17,8 @@ EMBED(report, "report.html")
 EMBED(page, "playground.html")
 EMBED(style, "playground.css")
 EMBED(script, "playground.js")
+EMBED(gzipped_style, "playground.css.gz")
+EMBED(gzipped_script, "playground.js.gz")
 EMBED(token, "token.html")
 EMBED(notice, "NOTICE")
 #define TEXT(name) std::string_view(rheonet_web_##name, rheonet_web_##name##_end)
@@ -28,8 +30,8 @@ namespace rheonet::web {
 
 Asset report_page() { return {TEXT(report), "text/html; charset=utf-8"}; }
 Asset playground_page() { return {TEXT(page), "text/html; charset=utf-8"}; }
-Asset playground_style() { return {TEXT(style), "text/css; charset=utf-8"}; }
-Asset playground_script() { return {TEXT(script), "text/javascript; charset=utf-8"}; }
+Asset playground_style() { return {TEXT(style), "text/css; charset=utf-8", TEXT(gzipped_style)}; }
+Asset playground_script() { return {TEXT(script), "text/javascript; charset=utf-8", TEXT(gzipped_script)}; }
 Asset token_page() { return {TEXT(token), "text/html; charset=utf-8"}; }
 Asset notice() { return {TEXT(notice), "text/plain; charset=utf-8"}; }
 

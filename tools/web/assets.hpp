@@ -8,6 +8,7 @@ namespace rheonet::web {
 struct Asset {
   std::string_view text;
   const char* type;  ///< as HTTP names it
+  std::string_view gzipped = {};  ///< the same, compressed; empty for small ones
 };
 
 Asset report_page();       ///< complete but for its data

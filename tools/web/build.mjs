@@ -3,6 +3,7 @@
 import { createRequire } from 'node:module';
 import { dirname, join, resolve } from 'node:path';
 import { readFileSync, writeFileSync } from 'node:fs';
+import { gzipSync } from 'node:zlib';
 import { fileURLToPath } from 'node:url';
 import { billOfMaterials, fontsOf, notice, packagesOf } from './notices.mjs';
 
@@ -82,8 +83,11 @@ write('report.html', filled(page('report.html'), [['/* style */', report.style],
 
 // tools/site makes another page of the same source, whose engine is in the page.
 write('playground.html', filled(page('playground.html'), [['<!-- engine -->\n', '']]));
-write('playground.css', playground.style);
-write('playground.js', credits(playground.packages, '/licences.txt') + playground.script);
+// The server gives these as they are: compressing them for each request took two seconds.
+for (const [name, text] of [['playground.css', playground.style], ['playground.js', credits(playground.packages, '/licences.txt') + playground.script]]) {
+  write(name, text);
+  write(`${name}.gz`, gzipSync(text, { level: 9 }));
+}
 write('token.html', page('token.html'));
 
 const all = [...new Map([...report.packages, ...playground.packages].map((each) => [each.name, each])).values()].sort((a, b) => (a.name < b.name ? -1 : 1));

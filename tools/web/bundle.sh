@@ -5,7 +5,7 @@
 set -uo pipefail
 source=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 output=$1 version=$2 node=$3 npm=$4
-files=(report.html playground.html playground.css playground.js token.html NOTICE sbom.cdx.json)
+files=(report.html playground.html playground.css playground.js playground.css.gz playground.js.gz token.html NOTICE sbom.cdx.json)
 
 install() {
   cmp -s "$source/package-lock.json" "$output/installed.json" && return
