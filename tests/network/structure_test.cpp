@@ -18,7 +18,7 @@ namespace rheonet::test {
 namespace {
 
 Modes all_slip(const Network& network) {
-  return {std::vector<signed char>(network.sliders.size(), Modes::forward)};
+  return {std::vector<signed char>(network.sliders.size(), Modes::forward), {}};
 }
 
 /// A scene, its network and its structure, and how to ask for parts of them by name.

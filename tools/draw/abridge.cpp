@@ -52,7 +52,7 @@ class Abridgement {
  private:
   const std::vector<int>& at(const Station& station) const { return at_[static_cast<std::size_t>(station.node)]; }
 
-  /// A text that is the same for what looks the same.
+  /// A text that is the same for parts that look the same.
   std::string shape_of(const Block& block) const {
     if (block.kind == Block::Kind::omitted) return "...";
     if (block.kind == Block::Kind::element) {

@@ -49,7 +49,7 @@ std::string unit_name(Dimension dimension, double radian, Domain domain) {
   return to_string(dimension);
 }
 
-/// The unit of a parameter, as far as it has one: those of blocks go with what is connected.
+/// The unit of a parameter, if it has one: units of the parameters of blocks follow from the connections.
 std::string unit_of_parameter(const Scene& scene, int index, const Parameter& parameter) {
   const SceneElement& element = scene.elements[static_cast<std::size_t>(index)];
   const Declaration& declaration = declaration_of(element);
@@ -148,7 +148,7 @@ struct Shape {
   std::string wave(const char* what, const Wave& s) const {
     return with(what, s.amplitude) + ", " + say(s.frequency, "Hz", typed) + beside(s.offset);
   }
-  /// What is added to it always.
+  /// The constant part of a signal, as a term behind the other.
   std::string beside(double offset) const {
     return offset == 0 ? "" : (offset < 0 ? " − " : " + ") + say(std::abs(offset), unit, typed);
   }
@@ -178,14 +178,14 @@ struct Beginning {
   }
 };
 
-/// What feeds a parameter of an element; nullptr if it has a signal of its own.
+/// The connection that feeds a parameter of an element; nullptr if it has a signal of its own.
 const SceneFeed* feed_of(const Scene& scene, int element, int parameter) {
   const auto found = std::find_if(scene.feeds.begin(), scene.feeds.end(),
                                   [=](const SceneFeed& feed) { return feed.element == element && feed.parameter == parameter; });
   return found == scene.feeds.end() ? nullptr : &*found;
 }
 
-/// The expression of a block, cut off where it would run into what is beside the block.
+/// The expression of a block, cut off where it would run into the neighbours of the block.
 std::string shortened(const std::string& expression) {
   constexpr std::size_t most = 28;  // bytes
   if (expression.size() <= most) return expression;

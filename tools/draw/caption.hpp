@@ -8,7 +8,7 @@
 
 namespace rheonet::draw {
 
-/// What is written beside an element.
+/// The texts beside an element.
 struct Caption {
   std::string name;
   std::vector<std::string> values;  ///< a line each
@@ -17,7 +17,7 @@ struct Caption {
 /// Its name and, unless they are left out, its values: those that are not as if they had not been given, in the units of
 /// `typed`, or else as an engineer writes them.
 Caption caption_of(const Scene& scene, int element, bool with_values, const Typed& typed);
-/// Of the support of a transmission.
+/// The texts beside the support of a transmission.
 Caption support_caption(const Scene& scene, int element);
 
 /// A value in SI as an engineer writes it, to four digits: "2.5 kN/m", "50 µm", "5·10⁻⁵ kg·m²", "∞".

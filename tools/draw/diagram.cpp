@@ -18,7 +18,7 @@ namespace {
 
 constexpr double port_distance = 17, track = 9, clearance = 16, channel = 10;
 
-/// What stands at the two sides of the blocks: the name of what is sensed, or fed.
+/// A block, or a name at either side of the blocks: that of a record which is sensed, or of a parameter which is fed.
 struct Item {
   int block = -1;  ///< index into Scene::blocks
   std::string text;
@@ -42,7 +42,7 @@ struct Net {
 
 class Diagram {
  public:
-  /// Of some of the blocks, which nothing connects to the others.
+  /// The diagram of some of the blocks, which nothing connects to the others.
   Diagram(const Scene& scene, const Detail& detail, const std::vector<int>& blocks)
       : scene_(scene), detail_(detail), size_(0.75 * detail.symbol) {
     for (const int block : blocks) add_block(block);
@@ -90,7 +90,7 @@ class Diagram {
   double height_of(int block) const {
     return std::max(size_, port_distance * static_cast<double>(scene_.blocks[at(block)].inputs.size()) + 8);
   }
-  /// So many inputs have room at the side of a box, and not at that of a symbol that is round.
+  /// Whether a block is drawn as a box: more than two inputs have no room at the side of a round symbol.
   bool framed(int block) const { return scene_.blocks[at(block)].inputs.size() > 2; }
 
   void add_block(int block) {
@@ -199,7 +199,7 @@ class Diagram {
     }
     width_ = x;
   }
-  /// What identifies the end of a line that leads back, among the items that are signals elsewhere.
+  /// The number of the end of a line that leads back: negative, where items have theirs from 0 on.
   int returning(std::size_t line) const { return -1 - static_cast<int>(line); }
 
   /// Gives each net of a gap that is not straight a vertical track; where the gap's tracks end.
@@ -207,7 +207,7 @@ class Diagram {
     std::vector<Net*> nets;
     for (auto& [key, each] : nets_)
       if (key.first == gap && !each.straight()) nets.push_back(&each);
-    // Those that go down from the lowest on, then those that go up from the highest on: so they cross each other least.
+    // First the nets that go down, the lowest first, then those that go up, the highest first: they cross each other least in this order.
     const auto rank = [](const Net* net) {
       const bool down = net->to.front() > net->from;
       return std::pair(!down, down ? -net->from : net->from);
@@ -255,7 +255,7 @@ class Diagram {
                              .framed = framed(items_[i].block)});
   }
 
-  /// Takes out the steps that are too small to be seen as anything but kinks: what follows such a step keeps the height before it.
+  /// Takes out steps so small that they look like kinks: the line goes on at the height before such a step.
   static void straighten(std::vector<Point>& points) {
     constexpr double kink = 3;  // px
     for (std::size_t i = 1; i + 1 < points.size(); ++i) {

@@ -212,7 +212,7 @@ double Draftsman::body(Stand& stand, NodeId node, int element, const Place& plac
   return middle;
 }
 
-// Ground stands wherever it is met. What has no effect because it is at ground is beside a wall of its own.
+// Ground stands wherever it is met. Elements without effect, both of whose ends are ground, are beside a wall of their own.
 Draftsman::Stand Draftsman::wall(const Place& place) const {
   Stand stand;
   const bool right = !place.first;

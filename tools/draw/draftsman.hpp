@@ -12,12 +12,12 @@ namespace rheonet::draw {
 /// How much of a network is shown, and how large.
 struct Detail {
   bool names = true, values = true, nodes = true;
-  double symbol = 60;   ///< side of the box of a symbol between two nodes [px]
-  double drive = 40;    ///< of that of a motion or force
-  double gap = 8;       ///< between parallel parts
-  double line = 1000;   ///< width beyond which a row goes on below
-  double column = 900;  ///< height beyond which parallel parts go on beside
-  Typed typed = {};     ///< how the files say the values
+  double symbol = 60;   ///< Side of the box of a symbol between two nodes [px].
+  double drive = 40;    ///< Side of the box of a motion or force [px].
+  double gap = 8;       ///< Between parallel parts [px].
+  double line = 1000;   ///< Width beyond which a row goes on below [px].
+  double column = 900;  ///< Height beyond which parallel parts go on beside [px].
+  Typed typed = {};     ///< Units of the values in the files.
 };
 
 /// A part of a drawing. Its origin is on its left edge, where it is entered; nodes on its edges are left to whoever
@@ -36,7 +36,7 @@ struct Piece {
   void wire(NodeId node, std::vector<Point> points);
 };
 
-/// Draws nodes and what is between them. A wire of a node reaches every element of the node.
+/// Draws nodes and the parts between them. A wire of a node reaches every element of the node.
 class Draftsman {
  public:
   Draftsman(const Scene& scene, const Detail& detail);
@@ -45,7 +45,7 @@ class Draftsman {
   Piece draw(const Block& block, double line) const;
   Piece draw(const Block& block) const { return draw(block, detail_.line); }
 
-  /// What a node looks like, and where it stands: `bar` is where everything is joined to it.
+  /// The picture of a node, and its place: all parts are joined to it at `bar`.
   struct Stand : Piece {
     double bar = 0;
   };
@@ -78,7 +78,7 @@ inline constexpr double line_height = 14;  // px, of a line of names or values
 
 /// A row, broken into lines where it is wider than `line`.
 Piece draw_row(const Draftsman& draftsman, const Block& row, double line);
-/// What is left out, in words: "96 more".
+/// The label of parts that are left out: "96 more".
 Label omission_label(int times, Point middle);
 
 /// Parts in parallel below each other; in columns, where they are very many.

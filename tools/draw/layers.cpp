@@ -82,7 +82,7 @@ void Layers::find_loops() {
 }
 
 void Layers::find_layers() {
-  // As far to the left as what comes in allows; without loops that settles within as many rounds as there are items.
+  // Each item as far to the left as its inputs allow. Without loops this takes at most as many rounds as there are items.
   for (bool changed = true; changed;) {
     changed = false;
     for (const Line& line : lines) {
@@ -91,7 +91,7 @@ void Layers::find_layers() {
       changed = true;
     }
   }
-  // What nothing comes into stands just before what it leads to.
+  // An item without inputs stands just before the first item that it leads to.
   for (std::size_t i = 0; i < items.size(); ++i) {
     int next = std::numeric_limits<int>::max();
     bool source = true;
@@ -114,7 +114,7 @@ void Layers::split_long_lines() {
   }
 }
 
-// Each layer by the mean place of what leads to it, then of what it leads to, and again.
+// Orders each layer by the mean place of the items before it, then by that of the items behind it, and again.
 void Layers::order() {
   const std::vector<Step> steps = steps_of(*this);
   std::vector<double> place(items.size());
@@ -161,7 +161,7 @@ void Layers::find_heights() {
       }
       for (const int i : layer)
         if (count[at(i)] > 0) items[at(i)].y = sum[at(i)] / count[at(i)];
-      // Those that came too close move apart, half of it each.
+      // Items that have come too close move apart, each by half of the overlap.
       std::vector<double> down(layer.size()), up(layer.size());
       for (std::size_t j = 0; j < layer.size(); ++j) {
         down[j] = items[at(layer[j])].y;
@@ -185,7 +185,7 @@ std::pair<double, double> Layers::room(int item) const {
   return {low, high};
 }
 
-// What a single line comes into goes to its height, where there is room.
+// An item with a single incoming line goes to the height of that line, where there is room.
 void Layers::straighten(bool passing_too) {
   const std::vector<Step> steps = steps_of(*this);
   std::vector<int> ins(items.size());

@@ -170,7 +170,7 @@ class Reduction {
     return joined(std::move(row), std::move(way));
   }
 
-  /// Which nodes may become stations of a row: others only where these do not help. What is driven is rather an end.
+  /// Which nodes may become stations of a row: others only where these do not help. A driven node is an end, if possible.
   enum Stage { plain, with_branches, driven_too };
 
   /// A node that two edges meet at becomes a station of a row.
@@ -227,7 +227,7 @@ class Reduction {
     return ends / 2 + 1 == nodes.size();
   }
 
-  /// Puts what is at the end of an edge into a way that hangs from its neighbour; false if there is no such end.
+  /// Makes a node with a single edge part of a way that hangs from its neighbour; false if there is no such node.
   bool absorb_end(const std::vector<NodeId>& nodes, NodeId start) {
     for (const NodeId n : nodes) {
       Vertex& v = vertex(n);

@@ -14,8 +14,8 @@ struct Station {
   std::vector<Block> hanging;  ///< ways that begin here and lead nowhere else
 };
 
-/// A part of a network between two nodes: one element, several parts in parallel or in a row, or what
-/// is left out because it repeats what is beside it.
+/// A part of a network between two nodes: one element, several parts in parallel or in a row, or
+/// repetitions of a neighbour, which are left out.
 struct Block {
   enum class Kind { element, parallel, series, omitted };
 
@@ -23,7 +23,7 @@ struct Block {
   NodeId left = ground, right = ground;
   int element = -1;
   bool of_support = false;             ///< between the second node of a transmission and its support
-  int times = 0;                       ///< of what is omitted: how often it is the same as what is beside it
+  int times = 0;                       ///< If omitted: how often its neighbour is repeated.
   std::vector<Block> parts;            ///< in parallel from top to bottom, in a row from left to right
   std::vector<Station> stations;       ///< of a row: one before each part, and one behind the last
   bool opens = false, closes = false;  ///< its first, its last station belongs to it; else to what it is part of
@@ -34,7 +34,7 @@ struct Block {
   /// Two blocks in a row; `middle` is the station between.
   static Block in_series(Block first, Station middle, Block second);
   static Block in_parallel(Block first, Block second);
-  /// A part with what stands at its ends.
+  /// A part with the stations at its ends.
   static Block in_row(Station first, Block part, Station last, bool opens, bool closes);
   /// The same seen from behind.
   void reverse();
@@ -42,7 +42,7 @@ struct Block {
   int levels() const;         ///< parallel parts within each other
 };
 
-/// What no series and parallel make one: stations with blocks between any two of them.
+/// A network that series and parallel do not reduce: stations with blocks between any two of them.
 struct Mesh {
   struct Link {
     int left, right;  ///< indices into stations, left < right; right is -1 for a way that leads nowhere else

@@ -35,7 +35,7 @@ Piece column(const std::vector<Piece>& parts, NodeId left, NodeId right, double 
     const Piece& part = parts[i];
     const double y = heights[i] - axis, before = (all.width - part.width) / 2, after = before + part.width;
     all.add(part, {before, y});
-    // What is joined at several heights goes on so, unless that is a long way.
+    // A part that is joined at several heights has a wire at each of them, unless the way is long.
     constexpr double short_way = 30;
     if (before < short_way) {
       for (const double entry : part.entries) all.wire(left, {{0, y + entry}, {before, y + entry}});
@@ -58,7 +58,7 @@ Piece column(const std::vector<Piece>& parts, NodeId left, NodeId right, double 
   return all;
 }
 
-/// Columns beside each other. What enters them comes along a rail above, what leaves them goes along one below.
+/// Columns beside each other. A rail above leads into them, and one below leads out.
 Piece columns_of(const std::vector<Piece>& columns, NodeId left, NodeId right) {
   constexpr double rail = 10, apart = 20;
   Piece all;

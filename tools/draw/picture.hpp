@@ -27,17 +27,17 @@ struct Mark {
     NodeId node;
     Point at;
   };
-  int element;            ///< index into Scene::elements
-  Box box;                ///< that the symbol's box of 1 x 1 is mapped to
-  bool mirrored = false;  ///< left and right are exchanged
-  std::vector<End> ends;  ///< none of a block
-  double unit = 0;        ///< of a box that is stretched: see `fitted` [px]
-  bool of_support = false;  ///< of a transmission: its support alone
-  bool framed = false;    ///< the box is drawn, and the symbol within, as wide as the box and without its outline
+  int element;            ///< Index into Scene::elements.
+  Box box;                ///< The box of 1 x 1 of the symbol is mapped to it.
+  bool mirrored = false;  ///< Left and right are exchanged.
+  std::vector<End> ends;  ///< Blocks have none.
+  double unit = 0;        ///< For a box that is stretched: see `fitted` [px].
+  bool of_support = false;  ///< Only the support of a transmission.
+  bool framed = false;    ///< The box is drawn, and the symbol within, as wide as the box and without its outline.
 };
 
-/// What joins symbols to each other: a rigid rod, all of which is one node.
-struct SignalConnection {
+/// A wire between symbols: a rigid rod, all of which is one node.
+struct Wire {
   NodeId node;
   std::vector<Point> points;  ///< horizontal and vertical pieces
   std::vector<double> hops;   ///< of a horizontal wire: the x at which it passes over others
@@ -70,10 +70,10 @@ struct Label {
 struct Picture {
   double width = 0, height = 0;
   std::string title;
-  std::size_t omitted = 0;  ///< elements that repeat what is beside them, and are left out
-  double stroke = 1.4;      ///< width of the lines [px]
+  std::size_t omitted = 0;  ///< Elements that repeat their neighbours and are left out.
+  double stroke = 1.4;      ///< Width of the lines [px].
   std::vector<Mark> marks;
-  std::vector<SignalConnection> wires;
+  std::vector<Wire> wires;
   std::vector<Wall> walls;
   std::vector<SignalLine> signals;
   std::vector<Label> labels;

@@ -8,20 +8,20 @@ namespace {
 
 constexpr double gutter = 12;  // beside lines and between them, where a wire leads from the end of one to the next
 
-/// A station and the part behind it, with what hangs from the station below that part.
+/// A station and the part behind it, with the parts that hang from the station below that part.
 struct Section {
   const Station* station = nullptr;
   bool drawn = false;
   std::optional<Piece> part;
   NodeId behind = ground;  ///< the node at the end of the part
   std::vector<Piece> hanging;
-  double beside = 0;  ///< width of the part or, if they are wider, of what hangs
+  double beside = 0;  ///< Width of the part or, if they are wider, of the hanging parts.
 };
 
 class Row {
  public:
   Row(const Draftsman& draftsman, const Block& block, double line) : draftsman_(draftsman), block_(block), most_(line) {
-    // What is before and behind parallel parts is to have room as well.
+    // Leaves room for the parts before and behind parallel ones.
     const double inner = block.parts.size() > 1 ? std::max(0.65 * line, 0.4 * draftsman.detail().line) : line;
     for (std::size_t k = 0; k < block.stations.size(); ++k) {
       Section section;
@@ -76,7 +76,7 @@ class Row {
     double wide = 0;
     for (std::size_t k = 0; k < sections_.size(); ++k) {
       wide += widths_[k];
-      // The last station stays with what leads to it.
+      // The last station stays with the part that leads to it.
       if (k == begins.back() || wide <= length || last(k)) continue;
       begins.push_back(k);
       wide = widths_[k];
@@ -139,7 +139,7 @@ class Row {
     if (ends.size() > 1) piece.wire(node, {{x, y + *low}, {x, y + *high}});
   }
 
-  /// A station, joined to what is on both its sides.
+  /// A station, joined to the parts on both its sides.
   void stand(Piece& piece, std::size_t k, Point at, const std::vector<double>& left,
              const std::vector<double>& right) const {
     Draftsman::Place place{0, 0, first(k), last(k)};

@@ -17,7 +17,7 @@ namespace {
 constexpr std::size_t few = 45;  // elements: names and values fit on a page
 constexpr double margin = 16, between = 26, title_size = 15;
 
-/// Of so many elements as are drawn.
+/// The detail for this many elements.
 Detail detail_of(std::size_t count, const Look& look) {
   constexpr std::size_t many = 120;
   Detail detail;

@@ -35,10 +35,10 @@ struct Straight {
 };
 
 /// The wires in straight pieces, each as long as it can be: where two ends of lines meet within a straight line, the eye sees a bead.
-std::vector<Straight> straight_pieces(const std::vector<SignalConnection>& wires) {
+std::vector<Straight> straight_pieces(const std::vector<Wire>& wires) {
   constexpr double same = 0.05;  // px, below which two heights are one
   std::vector<Straight> pieces;
-  for (const SignalConnection& wire : wires)
+  for (const Wire& wire : wires)
     for (std::size_t k = 0; k + 1 < wire.points.size(); ++k) {
       const Point a = wire.points[k], b = wire.points[k + 1];
       const bool horizontal = std::abs(a.y - b.y) < same;
@@ -77,7 +77,7 @@ std::string part(const std::string& path, const Mark& mark, const char* attribut
   return fmt::format("<path d=\"{}\"{}/>", fitted(path, mark.box, mark.mirrored, mark.unit), attributes);
 }
 
-/// What is drawn of a component in the middle of a box that is higher than its symbol.
+/// The mark of a component in the middle of a box that is higher than its symbol.
 Mark in_its_frame(const Mark& mark) {
   Mark inner = mark;
   const double half = (mark.box.right - mark.box.left) / 2, middle = (mark.box.top + mark.box.bottom) / 2;
@@ -144,7 +144,7 @@ void Picture::add(const Picture& other, Point by) {
     for (Mark::End& end : mark.ends) end.at = moved(end.at);
     marks.push_back(std::move(mark));
   }
-  for (SignalConnection wire : other.wires) {
+  for (Wire wire : other.wires) {
     for (Point& p : wire.points) p = moved(p);
     for (double& x : wire.hops) x += by.x;
     wires.push_back(std::move(wire));

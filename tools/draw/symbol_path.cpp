@@ -13,7 +13,7 @@
 namespace rheonet::draw {
 namespace {
 
-/// What the numbers of a command are, in their order.
+/// The meaning of the numbers of a command, in their order.
 std::string_view numbers_of(char command) {
   switch (command) {
     case 'M':
@@ -35,7 +35,7 @@ std::string_view numbers_of(char command) {
   throw std::invalid_argument(std::string("no command of a symbol: ") + command);
 }
 
-/// Reads a path: calls `begin` for each command, and `number` for each of its numbers, with what it is.
+/// Reads a path: calls `begin` for each command, and `number` for each of its numbers, with its meaning.
 template <class Begin, class Number>
 void read(const std::string& path, Begin begin, Number number_read) {
   const char *at = path.data(), *const end = path.data() + path.size();

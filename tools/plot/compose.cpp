@@ -11,7 +11,7 @@
 namespace rheonet::plot {
 namespace {
 
-/// What shares a panel.
+/// The curves of a panel.
 using Group = std::vector<const Measured*>;
 
 std::string with_unit(const std::string& quantity, const std::string& unit) {
@@ -133,7 +133,7 @@ void note_dropped(Figure& figure, std::vector<std::string>& notes) {
   }
 }
 
-/// Something of the curves is within the range that is asked for; what is along the axis is `told`, "time [s]".
+/// Throws Mistake if no part of the curves is within the range that is asked for. `told`: the label of the axis, "time [s]".
 void check_shown(const Axis& axis, const std::string& told, const std::vector<Panel>& panels, double Point::*along) {
   if (!axis.range) return;
   double least = std::numeric_limits<double>::infinity(), greatest = -least;

@@ -21,7 +21,7 @@ struct Measured {
   std::optional<Shown> x_unit = {}, y_unit = {};  ///< in which they are shown; if not given, as the look says
 };
 
-/// How a figure is wanted; what is not said follows from the curves.
+/// How a figure is to look; all else follows from the curves.
 struct Look {
   std::string title, x_label, y_label;  ///< "": what the curves say
   std::vector<std::string> units;       ///< each for the axes that have its dimension
@@ -33,8 +33,8 @@ struct Look {
 };
 
 /// Puts curves on axes: those of one quantity share a panel, in the order in which the quantities first come. Notes say
-/// what had to be left out. Throws Mistake: different quantities along x, a unit that no axis has the dimension of, a
-/// curve with nothing to show, a range with nothing of the curves in it, a range or label for y where there are several panels.
+/// what had to be left out. Throws Mistake for different quantities along x, a unit of another dimension
+/// than all axes, a curve without points, a range without any part of a curve, and a range or label for y if there are several panels.
 Figure compose(std::vector<Measured> curves, const Look& look, std::vector<std::string>& notes);
 
 }  // namespace rheonet::plot

@@ -17,7 +17,7 @@ struct Column {
   Measure measure;
 };
 
-/// What a record of the name `k1.force` measures, by its last word; nothing of a name that is no record's. Without a
+/// The quantity of a record with a name like `k1.force`, by its last word; absent for any other name. Without a
 /// domain its unit is not known, and called "SI".
 std::optional<Measure> measure_of_record(const std::string& name, std::optional<Domain> domain);
 

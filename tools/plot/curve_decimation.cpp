@@ -91,7 +91,7 @@ class Ink {
 
   /// Inks a line; whether any of its pixels was blank.
   bool draw(Point a, Point b) {
-    // Half a pixel at a time: what is cut off at a corner of a pixel is under the width of the line.
+    // Half a pixel at a time: the corners of pixels that it cuts are hidden by the width of the line.
     const int steps = 1 + static_cast<int>(2 * std::hypot(b.x - a.x, b.y - a.y));
     bool blank = false;
     for (int i = 0; i <= steps; ++i) {

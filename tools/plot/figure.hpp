@@ -26,7 +26,7 @@ struct Axis {
   std::optional<std::pair<double, double>> range;  ///< in the axis's unit; if not given, that of the curves
 };
 
-/// What shares a vertical axis.
+/// The curves that share a vertical axis.
 struct Panel {
   Axis y;
   std::vector<Curve> curves;

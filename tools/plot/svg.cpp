@@ -11,8 +11,8 @@
 #include "tools/plot/ticks.hpp"
 
 // SVG is written here and not by a plotting program: it is a page of code, text stays text (it can be searched, read
-// aloud and set in another font), the curves are thinned with knowledge of what they are, and the same code serves
-// wherever the library goes. What is hard, turning it into pixels, is left to librsvg (png.cpp).
+// aloud and set in another font), the curves are thinned so that extremes and jumps stay, and the same code serves
+// wherever the library goes. The hard part, turning it into pixels, is left to librsvg (png.cpp).
 
 namespace rheonet::plot {
 namespace {
@@ -84,7 +84,7 @@ double place_across(const Tick& tick, double at, double length) {
   return std::min(at, length + right_margin - 2 - width_of(tick.label, font) / 2);
 }
 
-/// Of labels that touch the one before them only the tick is left. Whether there was none. `place` says where the middle of
+/// Removes labels that touch the one before them; their ticks stay. Returns whether there was none. `place` says where the middle of
 /// one is, `half` how far it reaches to both sides.
 template <class Place, class Half>
 bool keep_apart(std::vector<Tick>& ticks, Place place, Half half) {
@@ -103,7 +103,7 @@ bool keep_apart(std::vector<Tick>& ticks, Place place, Half half) {
   return fit;
 }
 
-/// Those of the axis that runs across: as many as have room for their labels.
+/// Ticks of the horizontal axis: as many as have room for their labels.
 std::vector<Tick> ticks_across(const Axis& axis, std::pair<double, double> range, double length) {
   constexpr double usual = 75;  // px
   const Scale scale(axis, range, length);
@@ -116,7 +116,7 @@ std::vector<Tick> ticks_across(const Axis& axis, std::pair<double, double> range
   }
 }
 
-/// Those of an axis that runs up.
+/// Ticks of a vertical axis.
 std::vector<Tick> ticks_up(const Axis& axis, std::pair<double, double> range, double length) {
   constexpr double usual = 32;  // px
   const Scale scale(axis, range, length);
@@ -243,7 +243,7 @@ std::vector<bool> curves(const Figure& figure, const Panel& panel, const Place& 
   return solid;
 }
 
-/// For those who do not see it: what is drawn against what.
+/// The figure in words, for people who cannot see it: which quantities are drawn over which.
 std::string description(const Figure& figure) {
   std::string said;
   for (const Panel& panel : figure.panels) {
@@ -254,7 +254,7 @@ std::string description(const Figure& figure) {
   return said;
 }
 
-/// What stands above the panels, and how much room it takes.
+/// Title and legend above the panels, and their height.
 struct Head {
   std::string text;
   double height = 0;

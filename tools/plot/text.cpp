@@ -62,7 +62,7 @@ std::string raised(const std::string& label) {
   if (caret == label.npos) return escaped(label);
   const std::size_t end = std::min(label.find_first_not_of("-0123456789.", caret + 1), label.size());
   if (end == caret + 1) return escaped(label.substr(0, end)) + raised(label.substr(end));
-  // A blank at the start of what follows is lost in some viewers: it is a shift instead.
+  // Some viewers drop a blank at the start of a piece of text: it becomes a shift.
   const bool blank = end < label.size() && label[end] == ' ';
   const std::string rest = raised(label.substr(end + (blank ? 1 : 0)));
   return escaped(label.substr(0, caret)) + "<tspan dy=\"-4\" font-size=\"75%\">" +

@@ -12,7 +12,7 @@ double width_of(const std::string& text, double size);
 /// Breaks a text between words into lines no wider than `width`.
 std::vector<std::string> lines_of(const std::string& text, double size, double width);
 
-/// What stands for a text in XML: markup escaped, and control characters, which XML 1.0 has no way to say, left out.
+/// A text in XML: markup is escaped; control characters, which XML 1.0 cannot express, are left out.
 std::string escaped(const std::string& text);
 
 /// The same for a label in which `^` raises the number that follows: "10^-3".

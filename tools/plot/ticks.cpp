@@ -8,7 +8,7 @@
 namespace rheonet::plot {
 namespace {
 
-/// What rounding may put beyond an end, in parts of the step.
+/// Distance beyond an end that is rounding, as a share of the step.
 constexpr double slack = 1e-6;
 
 /// How many multiples of `step` lie in [low, high].

@@ -5,7 +5,7 @@
 
 namespace rheonet::plot {
 
-/// A mark on an axis. In a label `^` raises what follows: "10^-3", "2·10^-5".
+/// A mark on an axis. In a label `^` raises the following number: "10^-3", "2·10^-5".
 struct Tick {
   double value = 0;
   std::string label;  ///< "": a small tick
@@ -15,8 +15,8 @@ struct Tick {
 /// Expects low < high.
 std::vector<Tick> linear_ticks(double low, double high, int wanted);
 
-/// The powers of ten of [low, high], with small ticks between them where there is room; over less than two powers the
-/// numbers 1, 2 and 5 have labels too, over less than one the ticks are those of a linear axis. Expects 0 < low < high.
+/// The powers of ten of [low, high], with small ticks between them where there is room. Over less than two powers the
+/// numbers 1, 2 and 5 have labels too. Over less than one the ticks are those of a linear axis. Expects 0 < low < high.
 std::vector<Tick> logarithmic_ticks(double low, double high, int wanted);
 
 }  // namespace rheonet::plot

@@ -11,7 +11,7 @@ void Trace::add(Point point) {
 }
 
 void Trace::compact() {
-  // Of twelve points at most six stay: half of the room is free again.
+  // At most six points of twelve stay: half of the room is free again.
   constexpr std::size_t group = 12;
   std::size_t kept = 0;
   for (std::size_t begin = 0; begin < points_.size(); begin += group) {

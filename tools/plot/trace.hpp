@@ -6,9 +6,9 @@
 
 namespace rheonet::plot {
 
-/// Gathers the points of a curve in bounded memory, whatever the length of the run. When there are too many, of each
-/// group of neighbours only the first, the last and those of the extreme x and y stay: the extremes of the curve are
-/// kept exactly, and what is lost lies between points far closer than a pixel, or in a band that is filled anyway.
+/// Gathers the points of a curve in bounded memory, whatever the length of the run. When there are too many, each group of
+/// neighbours keeps its first and last point and those of the extreme x and y. So the extremes of the curve are
+/// exact, and the lost points lie between others far closer than a pixel, or in a band that is filled anyway.
 class Trace {
  public:
   void add(Point point);

@@ -58,7 +58,7 @@ Shown shown(const Measure& measure, const std::vector<std::string>& wished, doub
       return with_power(plain, largest);
     }
   }
-  // The largest multiple that leaves a 1 before the point; of what is smaller than all of them, the smallest.
+  // The largest multiple in which the value is at least 1; the smallest multiple if there is none.
   const Prefix* best = nullptr;
   for (const Prefix& prefix : prefixes)
     if (usual(measure, prefix) && (!best || largest >= 0.9999 * prefix.factor)) best = &prefix;

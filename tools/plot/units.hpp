@@ -8,7 +8,7 @@
 
 namespace rheonet::plot {
 
-/// What a column measures. Its values are in SI.
+/// The quantity and unit of a column. Its values are in SI.
 struct Measure {
   std::string quantity;      ///< "torque"; of a file that says no more, the column's name
   std::string unit;          ///< as typed: "N*m", "in*ozf"; "": nothing is known of it, "SI": only that
@@ -24,13 +24,13 @@ bool compatible(const Measure& a, const Measure& b);
 
 /// The unit of an axis: its name in print and its size in SI.
 struct Shown {
-  std::string name;  ///< "mN·m"; "" for a number, and if nothing is known; `^` raises what follows
+  std::string name;  ///< "mN·m"; "" for a number, and if nothing is known; `^` raises the following number
   double factor = 1;
 };
 
-/// How a measure is shown, whose values go up to `largest` in magnitude (SI): in the first of the wished units that has
-/// its dimension; else in its own; of an SI unit in a decimal multiple (mm, kN), so that the numbers are easy to read.
-/// What has no such multiple is said in thousands or thousandths ("10^3 dyn·cm").
+/// The unit in which a measure is shown whose values have magnitudes up to `largest` (SI). It is the first of the wished units
+/// that has its dimension, or else its own. An SI unit gets a decimal prefix (mm, kN) that makes the numbers easy to read.
+/// A unit that takes no prefix gets a power of ten ("10^3 dyn·cm").
 Shown shown(const Measure& measure, const std::vector<std::string>& wished, double largest);
 
 /// A unit in print: "N·m", "m/s²".

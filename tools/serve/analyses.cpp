@@ -100,7 +100,7 @@ void price_accuracy(const json& task, const std::vector<const FileOffer*>& offer
   if (!scene) return;
   constexpr double short_run = 0.02;  // s; of shorter runs the median of several is taken, as a page may use 20 s of CPU time in all
   const double seconds = run(*scene).wall_seconds;
-  PriceListSettings settings{.methods = {{.name = "ida"}}, .runs = seconds < short_run ? 5 : 1, .progress = progress_to(tell)};
+  PriceListSettings settings{.tolerances = {}, .methods = {{.name = "ida"}}, .runs = seconds < short_run ? 5 : 1, .progress = progress_to(tell)};
   for (int digits = 2; digits <= 10; ++digits) settings.tolerances.push_back(std::pow(10.0, -digits));
   if (std::find(settings.tolerances.begin(), settings.tolerances.end(), scene->accuracy) == settings.tolerances.end()) settings.tolerances.push_back(scene->accuracy);
   if (!not_linear(*scene)) settings.methods.push_back({.name = "exact", .method = Scene::Method::exact});
