@@ -203,3 +203,37 @@ def test_progress_of_a_study_goes_up(scene):
     slow = rheonet.loads(SCENE, {"simulate.stop": 100})
     slow.precision([1e-3, 1e-6], runs=20, progress=seen.append)
     assert len(seen) > 2 and seen == sorted(seen) and 0 <= seen[0] < seen[-1] <= 1
+
+
+def test_sensitivities_are_those_of_the_command(scene):
+    paths = ["k1.stiffness", "s1.coulomb"]
+    printed = command("run", "pads.toml", "--sensitivities", ",".join(paths), "-q", "-o", "rows.csv")
+    found = scene.sensitivities(paths)
+    assert printed == ""
+    rows, data = csv("rows.csv"), found.to_xarray()
+    assert (rows["time"] == found.time).all()
+    assert found.values == paths and found.units == scene.units
+    for record in scene.names:
+        for k, path in enumerate(paths):
+            assert (rows[f"d({record})/dln {path}"] == found[record][k]).all()
+            assert (data[record].sel(value=path).values == found[record][k]).all()
+    # Where the slider slips, its force is the Coulomb force: Fc dF/dFc = F. Where it sticks, the force is that of the spring.
+    assert np.abs(found["s1.force"][1]).max() == pytest.approx(0.1, rel=1e-8)
+    table = found.to_dataframe().set_index(["value", "record"])
+    assert table["largest"]["s1.coulomb", "s1.force"] == pytest.approx(0.1, rel=1e-8)
+    assert table["error"].max() < 1e-6
+    assert "s1.coulomb" in str(found)
+
+
+def test_sensitivities_name_what_has_no_derivative(scene):
+    with pytest.raises(rheonet.NetlistError, match="k1.stifness"):
+        scene.sensitivities("k1.stifness")
+    with pytest.raises(ValueError, match="at least one value"):
+        scene.sensitivities([])
+    with pytest.raises(KeyError, match="was not recorded; recorded: a.position"):
+        scene.sensitivities("k1.stiffness")["b.force"]
+
+
+def test_sensitivities_see_the_changes_of_the_scene(scene):
+    changed = rheonet.load("pads.toml", {"s1.coulomb": 0.05})
+    assert np.abs(changed.sensitivities("s1.coulomb")["s1.force"]).max() == pytest.approx(0.05, rel=1e-8)

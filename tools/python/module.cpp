@@ -118,6 +118,18 @@ void add_studies(py::module_& module) {
       .def_property_readonly("doubt", &Precision::doubt)
       .def_property_readonly("text", &Precision::text);
 
+  py::class_<Sensitivities>(module, "Sensitivities")
+      .def(py::init([](Source& source, std::vector<std::string> overrides, std::vector<std::string> library, std::vector<std::string> paths,
+                       std::optional<double> accuracy, const py::object& progress) {
+             Source::Wanted wanted{.overrides = std::move(overrides), .measures = std::vector<std::string>{}, .model_folders = std::move(library), .records = {}};
+             return Sensitivities(source, wanted, std::move(paths), accuracy, progress);
+           }),
+           py::arg("source"), py::arg("overrides"), py::arg("library"), py::arg("paths"), py::arg("accuracy"), py::arg("progress"))
+      .def_property_readonly("time", &Sensitivities::time)
+      .def("rows", &Sensitivities::rows)
+      .def_property_readonly("largest", &Sensitivities::largest)
+      .def_property_readonly("text", &Sensitivities::text);
+
   module.def("drawn_points", &drawn_points, py::arg("vary"), py::arg("kind"), py::arg("count"), py::arg("seed"), py::arg("correlate"),
              py::call_guard<py::gil_scoped_release>());
   module.def("report", &report, py::arg("readings"), py::arg("accuracy"), py::arg("title"), py::arg("certify"), py::arg("precision"), py::arg("progress"));

@@ -1,5 +1,7 @@
 #include "tools/python/studies.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <functional>
 #include <stdexcept>
@@ -13,6 +15,7 @@
 #include "tools/rheonet/effects_report.hpp"
 #include "tools/rheonet/precision_report.hpp"
 #include "tools/rheonet/pricing.hpp"
+#include "tools/rheonet/sensitivity_rows.hpp"
 
 namespace rheonet::python {
 namespace {
@@ -228,5 +231,53 @@ py::dict Precision::doubt() const {
 }
 
 std::string Precision::text() const { return tool::describe(scene_, file_, list_); }
+
+Sensitivities::Sensitivities(Source& source, const Source::Wanted& wanted, std::vector<std::string> paths, std::optional<double> accuracy,
+                             const py::object& progress)
+    : paths_(std::move(paths)), reading_(source.read(wanted)) {
+  const auto work = [&](Watch& watch) {
+    for (const std::string& path : paths_) {
+      const auto multiplied = [&](double factor) {
+        Source::Wanted changed = wanted;
+        changed.overrides.push_back(fmt::format("{}*={:.17g}", path, factor));
+        ReadResult read = source.read(std::move(changed)).read_result(accuracy);
+        if (read.scene) return *std::move(read.scene);
+        throw SimulationError(fmt::format("`{}` cannot be changed by {:.0e} of its value: {}", path, factor - 1, read.diagnostics.front().message));
+      };
+      const double before = static_cast<double>(derivatives_.size()), all = static_cast<double>(paths_.size());
+      const auto advance = [&](double) { watch.advance(before / all); };
+      derivatives_.push_back(sensitivity(multiplied, path, {.interrupt = watch.interrupt(), .progress = advance}));
+    }
+  };
+  do_watched(progress, work, [&]() -> const Sources& { return reading_.sources(); });
+}
+
+py::array_t<double> Sensitivities::time() const {
+  const std::vector<double>& times = derivatives_.front().times;
+  return py::array_t<double>(static_cast<py::ssize_t>(times.size()), times.data());
+}
+
+py::array_t<double> Sensitivities::rows(std::size_t record) const {
+  py::array_t<double> result({static_cast<py::ssize_t>(derivatives_.size()), static_cast<py::ssize_t>(derivatives_.front().times.size())});
+  auto cells = result.mutable_unchecked<2>();
+  for (std::size_t value = 0; value < derivatives_.size(); ++value) {
+    const std::vector<std::vector<double>>& rows = derivatives_[value].values;
+    for (std::size_t row = 0; row < rows.size(); ++row)
+      cells(static_cast<py::ssize_t>(value), static_cast<py::ssize_t>(row)) = rows[row].at(record) + 0.0;
+  }
+  return result;
+}
+
+py::list Sensitivities::largest() const {
+  py::list all;
+  for (const Sensitivity& by_value : derivatives_) {
+    py::list found;
+    for (const Sensitivity::Record& record : by_value.records) found.append(py::make_tuple(record.largest, record.time, record.error));
+    all.append(found);
+  }
+  return all;
+}
+
+std::string Sensitivities::text() const { return tool::describe(reading_.scene(), derivatives_, paths_); }
 
 }  // namespace rheonet::python

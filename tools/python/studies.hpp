@@ -10,11 +10,12 @@
 #include <vector>
 
 #include "core/result/model_hierarchy.hpp"
+#include "core/result/sensitivities.hpp"
 #include "core/result/work_precision.hpp"
 #include "tools/python/reading.hpp"
 #include "tools/rheonet/comparison.hpp"
 
-/// The studies of the commands `compare`, `effects` and `precision`, as Python gets them. All raise rheonet.SimulationError if a scene
+/// The studies of the commands `compare`, `effects`, `precision` and `run --sensitivities`, as Python gets them. All raise rheonet.SimulationError if a scene
 /// cannot be simulated, and ValueError for scenes that cannot be compared.
 namespace rheonet::python {
 
@@ -89,6 +90,26 @@ class Precision {
   std::string file_;
   Scene scene_;
   PriceList list_;
+};
+
+/// The derivatives of all records by some values of the netlist.
+class Sensitivities {
+ public:
+  /// `wanted`: how the scene is read. `paths`: values that can be multiplied.
+  Sensitivities(Source& source, const Source::Wanted& wanted, std::vector<std::string> paths, std::optional<double> accuracy,
+                const py::object& progress);
+
+  py::array_t<double> time() const;
+  /// p dr/dp of each value p, for the record r of this number: an array of shape (values, rows).
+  py::array_t<double> rows(std::size_t record) const;
+  /// For each value and each record a tuple: the largest magnitude of the derivative, its time [s], its estimated error.
+  py::list largest() const;
+  std::string text() const;
+
+ private:
+  std::vector<std::string> paths_;
+  Reading reading_;
+  std::vector<Sensitivity> derivatives_;
 };
 
 }  // namespace rheonet::python

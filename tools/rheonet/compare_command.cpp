@@ -151,7 +151,7 @@ ExitStatus compare(const Arguments& arguments) {
   }
   Compared compared = read_all(arguments, variation ? variation->path + '=' + variation->values.front() : "");
   std::unique_ptr<Output> output;
-  if (!arguments.overlay.empty() && !(output = open_output(arguments.overlay, Output::SimulationMethod::complete))) return wrong_input;
+  if (!arguments.overlay.empty() && !(output = open_output(arguments.overlay, Output::Writing::complete))) return wrong_input;
 
   const std::atomic<bool>& interrupted = end_on_signals();
   const char* const row = variation ? "value" : "row";

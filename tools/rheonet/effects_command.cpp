@@ -21,7 +21,7 @@ ExitStatus weigh_effects(const Arguments& arguments) {
   scene.output_events = false;  // models are compared at the same times
   if (is_source(arguments.overlay, "--output", read.sources) || !can_be_table(arguments.overlay, "--output")) return wrong_input;
   std::unique_ptr<Output> output;
-  if (!arguments.overlay.empty() && !(output = open_output(arguments.overlay, Output::SimulationMethod::complete))) return wrong_input;
+  if (!arguments.overlay.empty() && !(output = open_output(arguments.overlay, Output::Writing::complete))) return wrong_input;
 
   ModelHierarchy ladder;
   const bool simulated = do_watched(read.sources, [&](const auto& progress) {

@@ -16,7 +16,7 @@ namespace rheonet::tool {
 namespace {
 
 ExitStatus write_picture(const std::string& text, const std::string& path) {
-  const std::unique_ptr<Output> output = open_output(path, Output::SimulationMethod::complete);
+  const std::unique_ptr<Output> output = open_output(path, Output::Writing::complete);
   if (!output) return wrong_input;
   return write_all(*output, text, "line") ? done : not_simulated;
 }
@@ -38,7 +38,7 @@ bool can_be_figure(const std::string& path, const char* option) {
   const std::filesystem::file_type type = std::filesystem::status(path, error).type();
   const bool tried = type == std::filesystem::file_type::not_found || type == std::filesystem::file_type::regular ||
                      type == std::filesystem::file_type::directory;
-  return !tried || open_output(path, Output::SimulationMethod::complete) != nullptr;
+  return !tried || open_output(path, Output::Writing::complete) != nullptr;
 }
 
 void report(const plot::Mistake& mistake) {

@@ -59,8 +59,8 @@ std::unique_ptr<Output> opened(const std::string& path, Args... args) {
 
 }  // namespace
 
-Output::Output(const std::string& path, SimulationMethod method)
-    : path_(path), name_(path == "-" ? "standard output" : "`" + printable(path) + "`"), manner_(method) {
+Output::Output(const std::string& path, Writing writing)
+    : path_(path), name_(path == "-" ? "standard output" : "`" + printable(path) + "`"), writing_(writing) {
   if (path == "-") {
     descriptor_ = STDOUT_FILENO;
   } else {
@@ -89,7 +89,7 @@ Output::Output(const std::string& path, std::size_t bytes, long lines) : Output(
   lines_ = lines;
 }
 
-Output::Output(const std::string& path, std::unique_ptr<TableWriter> table) : Output(path, SimulationMethod::complete) { table_ = std::move(table); }
+Output::Output(const std::string& path, std::unique_ptr<TableWriter> table) : Output(path, Writing::complete) { table_ = std::move(table); }
 
 Output::~Output() {
   abandoned_ = true;  // who has written everything has closed it
@@ -116,7 +116,7 @@ int Output::begin() {
       return error.code().value();
     }
   }
-  if (manner_ == SimulationMethod::complete) {
+  if (writing_ == Writing::complete) {
     try {
       write_beside();
       return 0;
@@ -192,7 +192,7 @@ bool Output::finish() {
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
   finishing_ = true;
-  if (manner_ == SimulationMethod::complete && path_ != "-") {
+  if (writing_ == Writing::complete && path_ != "-") {
     replacement_.reset();  // removes the temporary file: what it holds is not complete
     if (created_) ::unlink(path_.c_str());
     return false;
@@ -242,7 +242,7 @@ int Output::close() {
     left_alone_ = error_ != 0 || abandoned_;
     replacement_.reset();
   } else {
-    left_alone_ = manner_ == SimulationMethod::complete && !touched_;
+    left_alone_ = writing_ == Writing::complete && !touched_;
     // Some file systems report only here that the disk is full.
     if (::close(descriptor_) != 0 && error_ == 0) error_ = errno;
   }
@@ -263,11 +263,11 @@ bool write_all(Output& output, const std::string& text, const char* row) {
   return error == 0;
 }
 
-std::unique_ptr<Output> open_output(const std::string& path, Output::SimulationMethod method) { return opened(path, method); }
+std::unique_ptr<Output> open_output(const std::string& path, Output::Writing writing) { return opened(path, writing); }
 
-std::unique_ptr<Output> open_table(const std::string& path, Output::SimulationMethod method, tables::Layout layout) {
+std::unique_ptr<Output> open_table(const std::string& path, Output::Writing writing, tables::Layout layout) {
   const TableFormat* const format = table_format(path);
-  if (!format) return open_output(path, method);
+  if (!format) return open_output(path, writing);
   layout.program = "rheonet " RHEONET_VERSION;
   try {
     return std::make_unique<Output>(path, std::make_unique<TableWriter>(*format, std::move(layout)));

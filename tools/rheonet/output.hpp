@@ -13,13 +13,13 @@ namespace rheonet::tool {
 /// Where the results of a command go. It counts the rows, and remembers why a write failed (disk full, reader gone).
 class Output {
  public:
-  enum class SimulationMethod {
+  enum class Writing {
     as_it_comes,  ///< an existing file is emptied when the first row comes, not before; a full disk leaves whole rows
     complete,     ///< `close` replaces an existing file if every write succeeded; else the file stays as it is
   };
 
   /// `path` "-" is standard output. Throws std::system_error if the file cannot be opened for writing.
-  explicit Output(const std::string& path, SimulationMethod method = SimulationMethod::as_it_comes);
+  explicit Output(const std::string& path, Writing writing = Writing::as_it_comes);
   /// A file whose first bytes are kept, so many with so many lines: what is written comes after them, and nothing of what
   /// stood there is lost before.
   Output(const std::string& path, std::size_t bytes, long lines);
@@ -44,7 +44,7 @@ class Output {
 
   /// Closes. The error of this or any earlier write (errno), 0 if all is written.
   int close();
-  /// Closes, and leaves a file that was there before as it was, if its manner is `complete`.
+  /// Closes, and leaves a file that was there before as it was, if it is written only when complete.
   void abandon();
 
  private:
@@ -70,7 +70,7 @@ class Output {
   bool touched_ = false;
   bool finishing_ = false;  ///< no write may wait for a reader any more
   std::size_t kept_ = 0;  ///< bytes of an earlier writing
-  SimulationMethod manner_;
+  Writing writing_;
   bool abandoned_ = false;
   bool left_alone_ = false;  ///< closed without a change of the file
   int folder_ = -1;       ///< of the file, while it is replaced
@@ -79,14 +79,14 @@ class Output {
 };
 
 /// Opens it; nullptr, and an error message, if that is not possible.
-std::unique_ptr<Output> open_output(const std::string& path, Output::SimulationMethod method);
+std::unique_ptr<Output> open_output(const std::string& path, Output::Writing writing);
 
 /// The same for rows as they come after so many bytes, with so many lines, of an earlier writing.
 std::unique_ptr<Output> open_output_after(const std::string& path, std::size_t bytes, long lines);
 
 /// A table of the layout, in the format that the ending of the name says: rows go to the Output as CSV. Without a format of its own
 /// it is CSV.
-std::unique_ptr<Output> open_table(const std::string& path, Output::SimulationMethod method, tables::Layout layout);
+std::unique_ptr<Output> open_table(const std::string& path, Output::Writing writing, tables::Layout layout);
 
 /// Writes a text and closes; false, and an error message, if not all is written. `row`: what a line of it is called.
 bool write_all(Output& output, const std::string& text, const char* row);

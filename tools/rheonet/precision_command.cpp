@@ -45,7 +45,7 @@ ExitStatus price_scene(const Arguments& arguments) {
   if (is_source(arguments.overlay, "--output", read.sources) || is_source(arguments.figure, "--plot", read.sources)) return wrong_input;
   if (!can_be_table(arguments.overlay, "--output")) return wrong_input;
   std::unique_ptr<Output> output;
-  if (!arguments.overlay.empty() && !(output = open_output(arguments.overlay, Output::SimulationMethod::complete))) return wrong_input;
+  if (!arguments.overlay.empty() && !(output = open_output(arguments.overlay, Output::Writing::complete))) return wrong_input;
 
   PriceList list;
   const bool simulated = do_watched(read.sources, [&](const auto& progress) {

@@ -60,7 +60,7 @@ ExitStatus write_report(const Arguments& arguments) {
   progress.erase();
   const std::string& own = reads.front().scene->title;
   const std::string title = !arguments.title.empty() ? arguments.title : own.empty() ? arguments.scenes.front() : own;
-  const std::unique_ptr<Output> output = open_output(arguments.output, Output::SimulationMethod::complete);
+  const std::unique_ptr<Output> output = open_output(arguments.output, Output::Writing::complete);
   if (!output) return wrong_input;
   if (!write_all(*output, report::document(title, scenes), "line")) return not_simulated;
   return all_well ? done : not_as_claimed;

@@ -116,11 +116,11 @@ ExitStatus run_scene(const Arguments& arguments) {
   const std::atomic<bool>& interrupted = end_on_signals();
   Outputs outputs;
   // The rows that are certified come when they are known to be good: an earlier result stays until then.
-  const auto method = arguments.certify ? Output::SimulationMethod::complete : Output::SimulationMethod::as_it_comes;
-  outputs.rows = open_table(arguments.output, method, layout_of(*read.scene, arguments.sensitivities));
+  const auto writing = arguments.certify ? Output::Writing::complete : Output::Writing::as_it_comes;
+  outputs.rows = open_table(arguments.output, writing, layout_of(*read.scene, arguments.sensitivities));
   if (!outputs.rows) return wrong_input;
   if (!arguments.events.empty()) {
-    outputs.events = open_output(arguments.events, method);
+    outputs.events = open_output(arguments.events, writing);
     if (!outputs.events) return wrong_input;
   }
   if (write_to_one_file(arguments)) return wrong_input;
@@ -154,7 +154,7 @@ ExitStatus run_scene(const Arguments& arguments) {
     if (!arguments.quiet) {
       say("{}: {:g} s to {:g} s\n{}", printable(arguments.scene), read.scene->start, read.scene->stop,
           describe(summary, outputs.rows->rows(), outputs.rows->name()));
-      if (!derivatives.empty()) say("{}", describe(*read.scene, derivatives, arguments));
+      if (!derivatives.empty()) say("{}", describe(*read.scene, derivatives, arguments.sensitivities));
     }
     if (arguments.profile) say("{}", describe_profile(summary));
     const bool as_claimed = report_claims(*read.scene, summary, read.sources, arguments.quiet);

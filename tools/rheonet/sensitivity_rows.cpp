@@ -76,13 +76,13 @@ Summary write_with_derivatives(const Scene& scene, const std::vector<Sensitivity
   });
 }
 
-std::string describe(const Scene& scene, const std::vector<Sensitivity>& derivatives, const Arguments& arguments) {
+std::string describe(const Scene& scene, const std::vector<Sensitivity>& derivatives, const std::vector<std::string>& paths) {
   std::vector<std::vector<std::string>> rows{{"by", "record", "largest derivative", "at", "estimated error"}};
   for (std::size_t p = 0; p < derivatives.size(); ++p) {
     for (std::size_t k = 0; k < scene.records.size(); ++k) {
       const Sensitivity::Record& record = derivatives[p].records[k];
       const std::string unit = unit_text(scene, scene.records[k]);
-      rows.push_back({k == 0 ? arguments.sensitivities[p] : "", scene.records[k].path, readable(record.largest, unit),
+      rows.push_back({k == 0 ? paths[p] : "", scene.records[k].path, readable(record.largest, unit),
                       record.largest > 0 ? readable(record.time, "s") : "-", readable(record.error, unit, 2)});
     }
   }

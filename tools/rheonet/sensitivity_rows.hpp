@@ -21,7 +21,7 @@ std::string derivative_name(const std::string& record, const std::string& path);
 /// Simulates, and writes the rows with the derivatives behind the records. Without rows at events: the derivatives jump there. Throws SimulationError.
 Summary write_with_derivatives(const Scene& scene, const std::vector<Sensitivity>& derivatives, const Arguments& arguments, RunSettings settings);
 
-/// The largest magnitude of each derivative, when, and its estimated error: a table for the summary of the run.
-std::string describe(const Scene& scene, const std::vector<Sensitivity>& derivatives, const Arguments& arguments);
+/// The largest magnitude of each derivative, its time and its estimated error, as a table. `paths`: the values, in the order of `derivatives`.
+std::string describe(const Scene& scene, const std::vector<Sensitivity>& derivatives, const std::vector<std::string>& paths);
 
 }  // namespace rheonet::tool

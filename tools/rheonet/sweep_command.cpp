@@ -179,7 +179,7 @@ bool SweepJob::write_statistics() {
   nlohmann::ordered_json head{{"program", "rheonet " RHEONET_VERSION}, {"scene", arguments_.scene}, {"title", sweep_.title()}, {"runs", runs_}, {"failed", statistics_->failed()}};
   for (const auto& [way, count] : {std::pair{"random", o.random}, {"latin", o.latin}, {"sobol", o.sobol}})
     if (count > 0) head["points"] = {{"kind", way}, {"count", count}, {"seed", o.seed.value_or(1)}};
-  const auto output = open_output(o.statistics, Output::SimulationMethod::complete);
+  const auto output = open_output(o.statistics, Output::Writing::complete);
   return output && write_all(*output, as_json(std::move(head), results_, sweep_.design(), sweep_.table()).dump(2) + '\n', "line");
 }
 
@@ -211,7 +211,7 @@ ExitStatus SweepJob::go() {
   }
   const bool as_it_comes = options_.merge.empty() && !table_format(arguments_.output);
   output_ = as_it_comes ? open_output_after(arguments_.output, left.bytes, left.lines)
-                        : open_table(arguments_.output, Output::SimulationMethod::complete, sweep_.layout());
+                        : open_table(arguments_.output, Output::Writing::complete, sweep_.layout());
   if (!output_) return wrong_input;
   const int processors = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   jobs_ = options_.jobs > 0 ? options_.jobs : processors;

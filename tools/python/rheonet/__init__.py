@@ -25,13 +25,13 @@ from . import _parallel, _pictures, _rheonet
 from ._errors import Diagnostic, NetlistError, NetlistWarning, SimulationError, diagnostics_of
 from ._pictures import Figure, Report
 from ._result import Event, Result
-from ._studies import Comparison, Difference, Effects, Model, Precision, Price
+from ._studies import Comparison, Difference, Effects, Model, Precision, Price, Sensitivities
 from ._values import coordinate, setting, toml_of
 
 __version__ = _rheonet.__version__
 __all__ = [
     "Comparison", "Diagnostic", "Difference", "Effects", "Event", "Figure", "Model", "NetlistError", "NetlistWarning", "Precision",
-    "Price", "Report", "Result", "Scene", "SimulationError", "load", "loads",
+    "Price", "Report", "Result", "Scene", "Sensitivities", "SimulationError", "load", "loads",
 ]  # fmt: skip
 for _name in set(__all__) & set(globals()):
     globals()[_name].__module__ = __name__  # as messages and help() name it
@@ -259,6 +259,26 @@ class Scene:
         study = _rheonet.Precision(self._read_again(), unique, _count("runs", runs), variants, certified, others, [records] * len(others), _progress(progress))
         return Precision(study)
 
+    def sensitivities(self, values, accuracy=None, progress=None):
+        """Differentiates every record by values of the netlist, across events too, as `rheonet run --sensitivities` does.
+
+        values: the path of a value, or a list of them: "k1.stiffness", "parameters.mu".
+        accuracy: as for run(); runs are more accurate where the derivatives need it.
+        progress: as for run(), called with the share of the values that are done.
+
+        Returns Sensitivities. Raises NetlistError for a path without a value that can be multiplied, SimulationError, also where a derivative
+        does not exist because any change of the value leads to other events.
+        """
+        _check_accuracy(accuracy)
+        paths = [values] if isinstance(values, str) else list(values)
+        if not paths:
+            raise ValueError("sensitivities() takes the path of at least one value")
+        overrides = _overrides(self._changes)
+        for path in paths:
+            _complete(self._source.read([*overrides, f"{path}*=1"], [], _library(), [], False))
+        study = _rheonet.Sensitivities(self._source, overrides, _library(), paths, accuracy, _progress(progress))
+        return Sensitivities(study, paths, self.units, self.title)
+
     def plot(self, y=(), *, accuracy=None, progress=None, ax=None, **options):
         """Simulates the scene and draws it as `rheonet plot` does, with upright jumps. `y` and `options` are those of Result.plot(), but may name
         everything that can be recorded. Returns a Figure, or `ax`.
@@ -305,8 +325,15 @@ class Scene:
 
 def _read(source, changes, measures=None, records=(), plotted=False):
     """Reads a netlist; `measures` take the place of its claims."""
-    overrides = [f"{path}={setting(value)}" for path, value in changes.items()]
-    reading = source.read(overrides, measures, _library(), list(records), plotted)
+    return _complete(source.read(_overrides(changes), measures, _library(), list(records), plotted))
+
+
+def _overrides(changes):
+    return [f"{path}={setting(value)}" for path, value in changes.items()]
+
+
+def _complete(reading):
+    """The reading; raises NetlistError if there are mistakes in it."""
     if not reading.complete:
         raise NetlistError(diagnostics_of(reading))
     return reading

@@ -225,3 +225,56 @@ class Precision:
 
     def __repr__(self):
         return f"<rheonet.Precision: {len(self.prices)} prices>"
+
+
+class Sensitivities:
+    """How the records of a scene change with values of its netlist. All derivatives are p dr/dp, with the value p and the record r: they have
+    the unit of r, and 1 % more of p changes r by a hundredth of them. str() of it is the table that `rheonet run --sensitivities` prints."""
+
+    def __init__(self, study, values, units, title):
+        """Made by Scene.sensitivities()."""
+        self._study, self._values, self._units, self._title = study, values, units, title
+
+    @property
+    def values(self):
+        """The paths of the values."""
+        return list(self._values)
+
+    @property
+    def units(self):
+        """The SI unit of each record, and of its derivatives."""
+        return dict(self._units)
+
+    @property
+    def time(self):
+        """Times of the rows [s]: an array of shape (rows,)."""
+        return self._study.time
+
+    def __getitem__(self, name):
+        """The derivatives of a record by each of `values`: an array of shape (values, rows). Raises KeyError if `name` was not recorded."""
+        if name not in self._units:
+            raise KeyError(f"{name!r} was not recorded; recorded: {', '.join(self._units)}")
+        return self._study.rows(list(self._units).index(name))
+
+    def to_xarray(self):
+        """An xarray.Dataset with a variable for each record over the dimensions "value" and "time"."""
+        import xarray
+
+        variables = {name: (("value", "time"), self[name], {"units": unit}) for name, unit in self._units.items()}
+        return xarray.Dataset(variables, {"value": self._values, "time": ("time", self.time, {"units": "s"})}, {"title": self._title})
+
+    def to_dataframe(self):
+        """A pandas.DataFrame with a row for each value and record: "value", "record", "unit", the "largest" magnitude of the derivative, its
+        "time" [s], and the estimated "error" of the derivative."""
+        rows = [
+            {"value": value, "record": record, "unit": unit, "largest": largest, "time": time, "error": error}
+            for value, of_value in zip(self._values, self._study.largest)
+            for (record, unit), (largest, time, error) in zip(self._units.items(), of_value)
+        ]
+        return _frame(rows)
+
+    def __str__(self):
+        return self._study.text
+
+    def __repr__(self):
+        return f"<rheonet.Sensitivities: {len(self._units)} records by {', '.join(self._values)}>"
