@@ -167,6 +167,7 @@ const RegisterComponent register_cfm({
     .declaration =
         {
             .type = "cfm",
+            .other_names = {"combined_friction"},
             .ports = Declaration::Ports::between,
             .parameters =
                 {

@@ -59,6 +59,7 @@ const RegisterComponent register_dashpot({
     .declaration =
         {
             .type = "dashpot",
+            .other_names = {"damper", "shock_absorber", "viscous_friction"},
             .ports = Declaration::Ports::between,
             .parameters =
                 {

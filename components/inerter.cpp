@@ -10,6 +10,7 @@ const RegisterComponent register_inerter({
     .declaration =
         {
             .type = "inerter",
+            .other_names = {"inertance"},
             .ports = Declaration::Ports::between,
             .parameters = {{.name = "inertance", .quantity = Quantity::mass, .lower_open = false, .may_be_infinite = true, .symbol = "b",
                             .description = "force per relative acceleration; 0 means no inerter, inf a rigid link"}},

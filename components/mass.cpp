@@ -9,6 +9,7 @@ const RegisterComponent register_mass({
     .declaration =
         {
             .type = "mass",
+            .other_names = {"body", "flywheel", "rotor"},
             .rotational_type = "inertia",
             .ports = Declaration::Ports::at,
             .parameters = {{.name = "mass", .quantity = Quantity::mass, .lower_open = false, .rotational_name = "inertia",

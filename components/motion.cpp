@@ -7,6 +7,7 @@ const RegisterComponent register_motion({
     .declaration =
         {
             .type = "motion",
+            .other_names = {"motor", "drive", "actuator", "servo"},
             .ports = Declaration::Ports::at,
             .parameters =
                 {

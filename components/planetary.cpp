@@ -9,6 +9,7 @@ double sun_over_ring(std::span<const double> v) { return -v[0]; }
 const RegisterComponent register_planetary(transmission(
     {
         .type = "planetary",
+        .other_names = {"epicyclic"},
         .three = {"sun", "carrier", "ring"},
         .parameters = {{.name = "ratio", .quantity = Quantity::number, .symbol = "r", .description = "teeth of the ring over those of the sun"}},
         .summary = "planetary gear without losses, between sun, carrier and ring",

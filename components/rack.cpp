@@ -6,6 +6,7 @@ namespace {
 const RegisterComponent register_rack(transmission(
     {
         .type = "rack",
+        .other_names = {"pinion"},
         .domains = {Domain::rotation, Domain::translation},
         .parameters = {{.name = "radius", .quantity = Quantity::length, .symbol = "r", .description = "radius of the pinion, the drum or the wheel"}},
         .summary = "rack and pinion, drum and rope or wheel on a road: joins a rotating node to one that moves along a line",

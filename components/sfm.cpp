@@ -68,6 +68,7 @@ const RegisterComponent register_sfm({
     .declaration =
         {
             .type = "sfm",
+            .other_names = {"dahl", "solid_friction"},
             .ports = Declaration::Ports::between,
             .parameters =
                 {

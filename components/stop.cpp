@@ -170,6 +170,7 @@ const RegisterComponent register_stop({
     .declaration =
         {
             .type = "stop",
+            .other_names = {"bumper", "buffer", "end_stop", "contact", "elastogap", "backlash"},
             .ports = Declaration::Ports::between,
             .parameters =
                 {

@@ -60,6 +60,7 @@ const RegisterComponent register_vfm({
     .declaration =
         {
             .type = "vfm",
+            .other_names = {"maxwell_element"},
             .ports = Declaration::Ports::between,
             .parameters =
                 {

@@ -28,8 +28,8 @@ void BlockSignals::check_sensors(const Network& network, const Structure& classi
     if (sensor.what != What::velocity || classified.kind[at(sensor.index)] != Kind::floating || firm[at(sensor.index)]) continue;
     throw SimulationError(
         network.spot_of_node(sensor.index),
-        fmt::format("no block can take in `{}`: node `{}` has no mass, and no dashpots lead from there to a mass, to ground or to a "
-                    "prescribed motion, so that its velocity follows from how fast the forces there change; add one, or take in "
+        fmt::format("no block and no law can depend on `{}`: node `{}` has no mass, and no dashpots lead from there to a mass, to ground or to a "
+                    "prescribed motion, so that its velocity follows from how fast the forces there change; add one, or use "
                     "the position",
                     path_of(network, sensor), network.node_name(sensor.index)));
   }

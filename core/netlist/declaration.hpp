@@ -113,6 +113,7 @@ struct Declaration {
   };
 
   std::string type = {};
+  std::vector<std::string> other_names = {};  ///< Names of the type elsewhere, for messages: `damper`.
   std::string rotational_type = {};  ///< An alias that puts its nodes in rotation (`inertia`, `torque`); "" if none.
   Ports ports = Ports::between;
   std::vector<Domain> domains = {};  ///< Domains of its two nodes, if the type determines them (`rack`); else both are in one domain.
@@ -147,5 +148,8 @@ struct Declaration {
 };
 
 using Declarations = std::span<const Declaration* const>;
+
+/// The hint for a type that has this name elsewhere: "it is called `dashpot` here" for `damper`; "" if no type has.
+std::string called_here(std::string_view name, Declarations declarations);
 
 }  // namespace rheonet

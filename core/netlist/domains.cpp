@@ -46,6 +46,17 @@ class Spread {
     return at({element.a, element.b, element.support}, element.domain.value_or(context_.domain));
   }
 
+  /// The elements that give an element its domain: see FoundDomain.
+  std::string given_by(std::size_t e) const {
+    const SceneElement& element = scene_.elements[e];
+    for (const NodeId node : {element.a, element.b, element.support}) {
+      if (node == ground || !places_[at_index(node)].domain) continue;
+      const Place& place = places_[at_index(node)];
+      return place.by == static_cast<int>(e) && place.from == ground ? "" : way(place.by, place.from);
+    }
+    return "";
+  }
+
   /// The domain of the first of these nodes that has one; otherwise `usual`.
   Domain at(std::initializer_list<NodeId> nodes, Domain usual) const {
     for (const NodeId node : nodes) {
@@ -146,8 +157,9 @@ DomainOfElement find_domains(const Scene& scene, Context& context) {
   const Spread spread(scene, context);
   if (spread.contradicts()) throw TooManyDiagnostics{};  // units that do not fit would only repeat it
   DomainOfElement result;
-  for (std::size_t e = 0; e < scene.elements.size(); ++e) result.emplace(scene.elements[e].name, spread.of(e));
-  for (const SceneAssembly& assembly : scene.assemblies) result.emplace(assembly.name, spread.at({assembly.a, assembly.b}, context.domain));
+  for (std::size_t e = 0; e < scene.elements.size(); ++e) result.emplace(scene.elements[e].name, FoundDomain{spread.of(e), spread.given_by(e)});
+  for (const SceneAssembly& assembly : scene.assemblies)
+    result.emplace(assembly.name, FoundDomain{spread.at({assembly.a, assembly.b}, context.domain), ""});
   return result;
 }
 

@@ -241,8 +241,9 @@ void TemplateReader::refuse_type(const TomlEntry& type) {
     if (!d->rotational_type.empty()) names.push_back(d->rotational_type);
   }
   for (const auto& [name, model] : models_) names.push_back(name);
+  const std::string here = called_here(type.value.text, context_.declarations);
   context_.diagnostics.error(type.value.spot, "unknown element type `" + type.value.text + "`",
-                          did_you_mean(type.value.text, names, "the types are " + list_names(names, "and")));
+                          !here.empty() ? here : did_you_mean(type.value.text, names, "the types are " + list_names(names, "and")));
 }
 
 void TemplateReader::read_element(ElementTemplate& plan, const TomlEntry& type, const Declaration& declaration, Scope* scope,

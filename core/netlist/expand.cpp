@@ -145,7 +145,7 @@ bool Expander::element(const ElementTemplate& plan, Ends ends, const std::string
   const Domain usual = context_.domain;
   if (domains_) element.domain = domain_at(path);
   const Instead in_its_domain(context_.domain, element.domain.value_or(usual));
-  if (!without_values_ && !(fits_domain(plan) && element_values(plan, around.environment, element))) return false;
+  if (!without_values_ && !(fits_domain(plan, path) && element_values(plan, around.environment, element))) return false;
   element.name = path;
   element.declaration = plan.declaration;
   element.a = ends.empty() ? ground : ends[0];
@@ -167,11 +167,11 @@ bool Expander::element(const ElementTemplate& plan, Ends ends, const std::string
 Domain Expander::domain_at(const std::string& path) const {
   if (!domains_) return context_.domain;
   const auto found = domains_->find(path);
-  return found == domains_->end() ? context_.domain : found->second;
+  return found == domains_->end() ? context_.domain : found->second.domain;
 }
 
 /// Whether the names of the parameters are those of the element's domain. A model may use the names of translation in both.
-bool Expander::fits_domain(const ElementTemplate& plan) {
+bool Expander::fits_domain(const ElementTemplate& plan, const std::string& path) {
   if (!domains_) return true;
   for (const Parameter& parameter : context_.declarations[static_cast<std::size_t>(plan.declaration)]->parameters) {
     const bool rotation = context_.domain == Domain::rotation;
@@ -179,10 +179,13 @@ bool Expander::fits_domain(const ElementTemplate& plan) {
     const std::string& other = rotation ? parameter.name : parameter.rotational_name;
     const TomlEntry* entry = plan.source->find(other);
     if (!entry) continue;
-    context_.diagnostics.error(entry->spot,
-                               fmt::format("`{}` is called `{}` in {}, and `{}` is of {}", other, parameter.name_in(context_.domain),
-                                           rotation ? "rotation" : "translation", plan.name, rotation ? "rotation" : "translation"),
-                               "write `" + parameter.name_in(context_.domain) + "`");
+    const char* here = rotation ? "rotation" : "translation";
+    const auto found = domains_->find(path);
+    const std::string by = found == domains_->end() || found->second.by.empty() ? "" : ", by " + found->second.by;
+    const std::string meant = by.empty() ? "" : fmt::format("; if `{}` is to be of {}, only a `rack` or a `screw` joins it to the other", plan.name, rotation ? "translation" : "rotation");
+    context_.diagnostics.error(
+        entry->spot, fmt::format("`{}` is called `{}` in {}, and `{}` is of {}{}", other, parameter.name_in(context_.domain), here, plan.name, here, by),
+        "write `" + parameter.name_in(context_.domain) + "`" + meant);
     return false;
   }
   return true;

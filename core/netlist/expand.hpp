@@ -77,7 +77,7 @@ class Expander {
 
   /// The domain of an element or an assembly, by its path.
   Domain domain_at(const std::string& path) const;
-  bool fits_domain(const ElementTemplate& plan);
+  bool fits_domain(const ElementTemplate& plan, const std::string& path);
   bool element_value(const ElementTemplate& plan, const Environment& environment, std::size_t i, double flow_index, SceneElement& element);
   bool element_values(const ElementTemplate& plan, const Environment& environment, SceneElement& element);
   Shared<double> shared_values(int declaration);

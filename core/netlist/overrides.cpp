@@ -141,6 +141,13 @@ void apply(const ActiveOverride& active, TomlValue& table, DiagnosticList& diagn
     ActiveOverride whole = active;
     while (!whole.at_end()) whole = whole.deeper();
     multiply(*at, whole, diagnostics);
+  } else if (at->is_table() && at->find("type") && !active.override->value.is_table()) {
+    const auto value = std::find_if(at->entries.begin(), at->entries.end(), [](const TomlEntry& e) {
+      return e.value.kind == TomlValue::Kind::number || (e.value.is_string() && e.key != "type" && e.key != "at" && e.key != "support");
+    });
+    const Override::Part& last = active.override->path.back();
+    diagnostics.error(last.spot, "`" + last.name + "` is an element, which " + describe(active.override->value) + " cannot replace",
+                      value == at->entries.end() ? "name one of its values" : "name one of its values: `" + last.name + "." + value->key + "`");
   } else {
     *at = active.override->value;
   }

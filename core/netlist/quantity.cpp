@@ -128,13 +128,13 @@ std::string hint_for(const Number& number, Quantity quantity, Domain domain, dou
   // An angle is a pure number in SI, so a fit in the other domain is no evidence.
   const Dimension elsewhere = dimension_of(quantity, other, flow_index);
   if (number.dimension.same(elsewhere) && !elsewhere.is_number())
-    return rotation ? "this is of rotation (`domain = \"rotation\"`)"
+    return rotation ? "this is of rotation, by `domain` or by another element at its nodes"
                     : "what is of rotation says so: `domain = \"rotation\"`, of the scene or of an element";
   const Dimension acceleration{1, 0, -2};
   if (number.dimension.same(dimension_of(quantity, domain, flow_index) * acceleration))
     return "its weight is not its mass: `kg`, `lb` and `slug` are masses, `kgf` and `lbf` forces";
   if ((number.dimension * acceleration).same(dimension_of(quantity, domain, flow_index)))
-    return "there is a mass in its unit where a force is needed: `kgf`, `lbf` and `N` are forces";
+    return "there is a mass in its unit where a force is needed: `kgf`, `lbf` and `N` are forces; a mass times `9.81 m/s^2` is its weight";
   return "";
 }
 

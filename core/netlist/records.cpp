@@ -111,6 +111,11 @@ void refuse(const Path& path, const SceneIndex::Found& found, bool sensed, Conte
                            "that of its node is `" + scene.nodes[static_cast<std::size_t>(node)].name + '.' + path.channel + '`');
     return;
   }
+  const std::vector<std::string> paths = known_paths(scene, true);
+  if (const std::string inner = path.object + '.' + path.channel; std::find(paths.begin(), paths.end(), inner) != paths.end()) {
+    context.diagnostics.error(spot, "`" + inner + "` is no record, but has some", "did you mean `" + inner + ".out`?");
+    return;
+  }
   const std::string meant = meant_channel(path.channel, known);
   context.diagnostics.error(
       spot, "`" + path.object + "` has no `" + path.channel + "`",

@@ -1,5 +1,7 @@
 #include "core/netlist/signals.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -15,6 +17,9 @@ namespace rheonet {
 namespace {
 
 constexpr double largest_seed = 9007199254740992;  // 2^53: doubles are exact up to there
+
+/// "N/s" for "N", "m/s^2" for "m/s".
+std::string per_second(const std::string& unit) { return unit.ends_with("/s") ? unit + "^2" : unit + "/s"; }
 
 }  // namespace
 
@@ -251,8 +256,8 @@ std::optional<double> SignalTemplate::scaled(const Formula& formula, const Envir
   const Dimension second = dimension_of(Quantity::time, domain);
   const Dimension rise = unit_.dimension / second;
   if (shape_ == Shape::ramp && quantity_ && !number->plain && !number->dimension.same(rise)) {
-    context.diagnostics.error(spot, formula.name() + ": expected " + describe(rise) + ", the rise of `" + name_ +
-                                     "` per second, found " + describe(*number),
+    context.diagnostics.error(spot, fmt::format("{}: expected the rise of `{}` per second ({}), found {}", formula.name(), name_,
+                                                per_second(unit_of(*quantity_, domain)), describe(*number)),
                            hint_for(formula, environment, context, ""));
     return {};
   }
@@ -386,7 +391,7 @@ std::optional<Signal> SignalTemplate::make_table(const Environment& environment,
     const auto value = scaled(point.y, environment, context);
     if (!t || !value) return {};
     if (!table.times.empty() && *t < table.times.back()) {
-      context.diagnostics.error(point.x.source().spot, "the times of a table must not decrease");
+      context.diagnostics.error(point.x.source().spot, fmt::format("the times of a table must not decrease, but {:.6g} s follows {:.6g} s", *t, table.times.back()));
       return {};
     }
     table.times.push_back(*t);

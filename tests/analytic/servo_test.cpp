@@ -188,7 +188,7 @@ TEST_CASE("loops without an answer at an instant are refused") {
        "before the other; put a `lag` between them");
   says("k = { type = \"spring\", between = [\"x\", \"y\"], stiffness = 1 }\nl = { type = \"spring\", between = [\"y\", \"ground\"], stiffness = 1 }\n"
        "g = { type = \"gain\", in = \"y.velocity\", gain = 2 }",
-       "no block can take in `y.velocity`: node `y` has no mass, and no dashpots lead from there to a mass");
+       "no block and no law can depend on `y.velocity`: node `y` has no mass, and no dashpots lead from there to a mass");
   says("s = { type = \"slider\", between = [\"x\", \"ground\"], coulomb = 1 }\ng = { type = \"gain\", in = \"s.force\", gain = 2 }",
        "block `g` cannot take in `s.force`: the force of `s` is what all others at its node leave over; take in that of a "
        "spring or a dashpot beside it");

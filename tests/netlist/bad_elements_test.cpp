@@ -72,6 +72,17 @@ scene.toml:2:15: error: unknown element type `gearbox`
       |               ^
   the types are `spring`, `dashpot`, `slider`, `mass`, `inertia`, `motion`, `force` and `torque`
 )~"},
+      {"a type that has another name elsewhere",
+       R"~(
+[elements]
+k1 = { type = "Damper", between = ["a", "ground"], damping = 1 }
+)~",
+       R"~(
+scene.toml:2:15: error: unknown element type `Damper`
+    2 | k1 = { type = "Damper", between = ["a", "ground"], damping = 1 }
+      |               ^
+  it is called `dashpot` here
+)~"},
       {"a mistyped key, not missing too",
        R"~(
 [elements]

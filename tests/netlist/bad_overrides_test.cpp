@@ -42,6 +42,18 @@ command line: error: expected a number after `*=`, found the string "3 N/m"
   for instance --set k1.stiffness*=1.1
 )~",
        {R"~(k1.stiffness*=3 N/m)~"}},
+      {"an element in place of one of its values",
+       R"~(
+[elements]
+k1 = { type = "spring", between = ["a", "ground"], stiffness = 1 }
+)~",
+       R"~(
+command line: error: `k1` is an element, which the string "3 N/m" cannot replace
+      | --set k1=3 N/m
+      |       ^
+  name one of its values: `k1.stiffness`
+)~",
+       {R"~(k1=3 N/m)~"}},
       {"an unknown element",
        R"~(
 [elements]

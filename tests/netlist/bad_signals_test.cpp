@@ -55,7 +55,7 @@ scene.toml:5:57: error: unknown key `frequency` of a `step` signal
 scene.toml:6:54: error: `step`: expected a velocity (m/s), found a length (m)
     6 | e = { type = "motion", at = "e", velocity = { step = "1 m" } }
       |                                                      ^
-scene.toml:7:54: error: `ramp`: expected an acceleration (m/s^2), the rise of `velocity` per second, found a velocity (m/s)
+scene.toml:7:54: error: `ramp`: expected the rise of `velocity` per second (m/s^2), found a velocity (m/s)
     7 | f = { type = "motion", at = "f", velocity = { ramp = "1 m/s" } }
       |                                                      ^
 scene.toml:8:54: error: `sine`: expected a velocity (m/s), found a kinematic viscosity (m^2/s)
@@ -77,7 +77,7 @@ scene.toml:12:66: error: `width` must be less than the period, 1/`frequency`
 scene.toml:13:64: error: a point of a table is an array of two values, [time, value], but this has 1
    13 | l = { type = "motion", at = "l", velocity = { table = [[0, 0], [1]] } }
       |                                                                ^
-scene.toml:14:65: error: the times of a table must not decrease
+scene.toml:14:65: error: the times of a table must not decrease, but -1 s follows 0 s
    14 | m = { type = "motion", at = "m", velocity = { table = [[0, 0], [-1, 2]] } }
       |                                                                 ^
 scene.toml:15:55: error: `table` has no points
@@ -188,7 +188,7 @@ scene.toml:2:54: error: `sine`: expected a velocity (m/s), found a quantity in m
     2 | a = { type = "motion", at = "a", velocity = { sine = "1 m/s", amplitude = "2 m/s", frequency = 1 } }
       |                                                      ^
   `amplitude` multiplies `sine`: one of them has the unit, the other is a number
-scene.toml:3:54: error: `ramp`: expected an acceleration (m/s^2), the rise of `velocity` per second, found a quantity in m^2*s^-3
+scene.toml:3:54: error: `ramp`: expected the rise of `velocity` per second (m/s^2), found a quantity in m^2*s^-3
     3 | b = { type = "motion", at = "b", velocity = { ramp = "1 m/s^2", amplitude = "2 m/s" } }
       |                                                      ^
   `amplitude` multiplies `ramp`: one of them has the unit, the other is a number

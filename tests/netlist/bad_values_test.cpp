@@ -36,7 +36,7 @@ k1 = { type = "spring", between = ["a", "ground"], stiffness = "2 N/m" }
 scene.toml:3:64: error: `stiffness`: expected a torsional stiffness (N*m/rad), found a stiffness (N/m)
     3 | k1 = { type = "spring", between = ["a", "ground"], stiffness = "2 N/m" }
       |                                                                ^
-  this is of rotation (`domain = "rotation"`)
+  this is of rotation, by `domain` or by another element at its nodes
 )~"},
       {"an expression of another dimension",
        R"~(

@@ -115,7 +115,7 @@ k = { type = "spring", between = ["a", "ground"], stiffness = "5 N/m" }
 [elements]
 J = { type = "inertia", at = "a", inertia = "1 kg*m^2" }
 m = { type = "mass", at = "a", mass = 1 }
-)~" + run_it).find("`mass` is called `inertia` in rotation, and `m` is of rotation") != std::string::npos);
+)~" + run_it).find("`mass` is called `inertia` in rotation, and `m` is of rotation, by `J`") != std::string::npos);
   CHECK(refusal(R"~(
 [elements]
 J = { type = "inertia", at = "a", inertia = "1 kg*m^2" }

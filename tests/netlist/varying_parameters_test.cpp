@@ -51,9 +51,9 @@ TEST_CASE("sliders: messages for parameters that do not fit") {
   const std::string from_block = "a signal comes from a block: a `gain` makes one of a quantity of the network";
   check_refused("coulomb = \"2 N\", normal = \"7 N\"", "4:62", of_normal + ": expected a number without a unit, found a force (N)");
   check_refused("coulomb = { ramp = \"2 N/s\" }, normal = \"7 N\"", "4:71",
-                "`ramp`: expected a frequency (1/s), the rise of `coulomb` per second, found a quantity in kg*m*s^-3");
+                "`ramp`: expected the rise of `coulomb` per second (1/s), found a quantity in kg*m*s^-3");
   check_refused("coulomb = 0.3, normal = \"7 kg\"", "4:76", "`normal`: expected a force (N), found a mass (kg)",
-                "there is a mass in its unit where a force is needed: `kgf`, `lbf` and `N` are forces");
+                "there is a mass in its unit where a force is needed: `kgf`, `lbf` and `N` are forces; a mass times `9.81 m/s^2` is its weight");
   check_refused("coulomb = 0.3, normal = \"-7 N\"", "4:76", "`normal` must be at least 0, but is -7 N");
   check_refused("coulomb = -0.3, normal = \"7 N\"", "4:62", of_normal + " must be at least 0, but is -0.3");
   check_refused("coulomb = \"inf\", normal = \"7 N\"", "4:62", of_normal + " must be finite, but is infinite", infinite);
@@ -66,7 +66,7 @@ TEST_CASE("sliders: messages for parameters that do not fit") {
   check_refused("coulomb = 0.3, breakaway = 0.2, normal = \"7 N\"", "4:79",
                 "`breakaway` must be at least `coulomb`: under a force between the two the slider could neither stick nor slip");
   check_refused("coulomb = \"2 N\", breakaway = { ramp = \"2 m/s\" }", "4:90",
-                "`ramp`: expected a quantity in kg*m*s^-3, the rise of `breakaway` per second, found a velocity (m/s)");
+                "`ramp`: expected the rise of `breakaway` per second (N/s), found a velocity (m/s)");
   check_refused("coulomb = 0.3, normal = { block = \"g1\" }", "5:86", "`normal` from block `g1`: expected a force (N), found a pure number", "", number);
   check_refused("coulomb = { block = \"g1\" }", "5:72", "`coulomb` from block `g1`: expected a force (N), found a pure number", "", number);
   check_refused("coulomb = { block = \"g1\" }, normal = \"7 N\"", "5:72",

@@ -171,7 +171,7 @@ TEST_CASE("compare: what is wrong with the command line or the scenes has status
       {"one.toml two.toml -o no/x.csv", "cannot write to `no/x.csv`"},
       {"one.toml two.toml --set simulate.start=0.5 c.dampin=3", "did you mean `damping`?"},
       {"one.toml two.toml --vary parameters.B", "does not say what takes which values"},
-      {"one.toml two.toml --vary parameters.B=1:2", "`1:2` is not a range"},
+      {"one.toml two.toml --vary parameters.B=1:2", "`1:2` does not say how many values are taken"},
       {"one.toml two.toml --vary parameters.B=1:2:3:lin", "`1:2:3:lin` is not a range"},
       {"one.toml two.toml --vary parameters.B=1:b:3", "`b` is not a number, or one with a unit"},
       {"one.toml two.toml --vary parameters.B=1:2:1", "`1` is not a number of values from 2 to"},

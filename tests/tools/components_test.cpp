@@ -21,7 +21,11 @@ TEST_CASE("components describes every element type and all its parameters") {
     const Finished one = folder.shell("rheonet components " + d.type);
     CHECK(one.status == 0);
     CHECK(one.out.starts_with(d.type));
-    CHECK(contains(all.out, one.out));
+    CHECK(contains(all.out, "\n  " + d.type));
+    for (const std::string& name : d.other_names) {
+      CAPTURE(name);
+      CHECK(contains(folder.shell("rheonet components " + name).err, "it is called `" + d.type + "` here"));
+    }
     CHECK(contains(one.out, d.law));
     for (const Parameter& parameter : d.parameters) {
       CAPTURE(parameter.name);

@@ -242,7 +242,7 @@ TEST_CASE("sweep: what is wrong for every run has status 2, and writes nothing")
   refused("scene.toml", "nothing is varied");
   refused("scene.toml --vary c.dumping=1,2", "did you mean `damping`?");
   refused("mistaken.toml --vary simulate.stop=1,2", "did you mean `spring`?");
-  refused("scene.toml --vary parameters.B=1:2", "`1:2` is not a range");
+  refused("scene.toml --vary parameters.B=1:2", "`1:2` does not say how many values are taken");
   refused("scene.toml --vary parameters.B=1:2:3 --random 4", "`1:2:3` is not a range to draw from");
   refused("scene.toml --vary parameters.B=1:2 parameters.B=3:4 --random 4", "`parameters.B` is varied twice");
   refused("scene.toml --vary parameters.B=1:2 --random 4 --latin 3", "exclude each other");

@@ -20,9 +20,9 @@ ExitStatus print_components(const Arguments& arguments) {
     }
   }
   if (chosen.empty()) {
-    const std::string near = nearest(arguments.type, names);
+    const std::string here = called_here(arguments.type, declarations()), near = did_you_mean(arguments.type, names);
     say("error: unknown element type `{}`\n", arguments.type);
-    if (!near.empty()) say("  did you mean `{}`?\n", near);
+    if (const std::string& hint = here.empty() ? near : here; !hint.empty()) say("  {}\n", hint);
     say("  `rheonet components` lists them all\n");
     return wrong_input;
   }
@@ -30,8 +30,10 @@ ExitStatus print_components(const Arguments& arguments) {
     fmt::print("{}", as_markdown(chosen));
     return done;
   }
-  for (const Component* component : chosen)
-    fmt::print("{}{}", component == chosen.front() ? "" : "\n", as_text(*component));
+  if (arguments.type.empty())
+    fmt::print("{}", as_list(chosen));
+  else
+    fmt::print("{}", as_text(*chosen.front()));
   return done;
 }
 

@@ -198,6 +198,20 @@ std::string cell(std::string text) {
 
 }  // namespace
 
+std::string as_list(const std::vector<const Component*>& components) {
+  std::string text;
+  for (const bool blocks : {false, true}) {
+    text += blocks ? "\nsignal blocks\n" : "mechanical elements\n";
+    for (const Component* component : components) {
+      const Declaration& d = component->declaration;
+      if ((d.ports == Declaration::Ports::block) != blocks) continue;
+      const std::string names = d.rotational_type.empty() ? d.type : d.type + ", " + d.rotational_type;
+      text += fmt::format("  {:<18}{}\n", names, wrapped(d.summary, 20));
+    }
+  }
+  return text + "\n`rheonet components spring` shows the law and the parameters of one type\n";
+}
+
 std::string as_text(const Component& component) {
   const Declaration& d = component.declaration;
   std::string text = d.type;

@@ -213,6 +213,9 @@ std::variant<Variation, NoVariation> read_variation(const std::string& text) {
     return variation;
   }
   const bool logarithmic = parts.parts.size() == 4 && (parts.parts[3] == "log" || parts.parts[2] == "log");
+  if (parts.parts.size() == 2)
+    return NoVariation{fmt::format("`{0}` does not say how many values are taken", parts.range),
+                       fmt::format("`{}:10` takes ten; --random N, --latin N and --sobol N draw points from `{}`", parts.range, parts.range)};
   if (parts.parts.size() != 3 && !logarithmic)
     return NoVariation{fmt::format("`{}` is not a range", parts.range), forms};
   const auto ends = read_ends(parts.parts, logarithmic, forms);
