@@ -34,7 +34,7 @@ struct Run {
 /// A read-only view of a column, which keeps its owner alive.
 py::array_t<double> view(const std::vector<double>& column, const py::handle& owner);
 
-/// What Python gets: tuples of (time, element, event, direction), and dictionaries.
+/// Results as Python objects: a list of tuples (time, element, event, direction), and dictionaries.
 py::list events_of(const Run& run);
 py::dict summary_of(const Run& run);
 py::object certificate_of(const Run& run);

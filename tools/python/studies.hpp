@@ -27,7 +27,7 @@ class Comparison {
 
   const std::vector<tool::Pairing>& pairings() const { return compared_.pairings; }
   std::vector<std::string> units() const;
-  /// Of each scene but the first, and of each pairing, keywords of rheonet.Difference.
+  /// Keywords of rheonet.Difference for each scene but the first and each pairing.
   py::list differences() const;
   std::vector<double> dissipated() const;
   py::array_t<double> time() const;
@@ -39,12 +39,12 @@ class Comparison {
   tool::Compared compared_;
 };
 
-/// The points of `rheonet sweep` with --random, --latin or --sobol: of each run the values, as text. `vary` and `correlate` are as after these
-/// options of the command. Throws std::invalid_argument for what the command refuses.
+/// The points of `rheonet sweep` with --random, --latin or --sobol: for each run its values as text. `vary` and `correlate` have the words
+/// after these options of the command. Throws std::invalid_argument for words that the command refuses.
 std::vector<std::vector<std::string>> drawn_points(const std::vector<std::string>& vary, const std::string& kind, long count, std::uint64_t seed,
                                                    const std::vector<std::string>& correlate);
 
-/// What each physical effect contributes.
+/// The contribution of each physical effect.
 class Effects {
  public:
   Effects(const Reading& reading, int runs, const py::object& progress);
