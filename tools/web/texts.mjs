@@ -43,7 +43,7 @@ function isShown(node, ancestors) {
   });
 }
 
-// The text of a string or a template, with {} for what is put in; absent for anything else.
+// The text of a string or of a template with {} for each expression; undefined for any other node.
 function textOf(node) {
   if (node.type === 'Literal' && typeof node.value === 'string') return node.value;
   if (node.type === 'TemplateLiteral') return node.quasis.map((each) => each.value.cooked).join('{}');
@@ -105,7 +105,7 @@ export function textsOf(parse, names = readdirSync(source).filter((name) => name
 
 export const messages = Object.fromEntries(readdirSync(join(source, 'messages')).map((name) => [name.replace('.json', ''), JSON.parse(readFileSync(join(source, 'messages', name), 'utf8'))]));
 
-// What the files of translations lack, and what they have that nobody uses.
+// Faults of the translation files: missing and unused texts.
 export function faultsOf({ used }, languages = messages) {
   const faults = [];
   const places = (text) => [...text.matchAll(/\{\w+\}/g)].map(([place]) => place).sort().join();
