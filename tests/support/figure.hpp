@@ -10,7 +10,7 @@ namespace rheonet::test {
 /// may differ by what the accuracy of a run allows.
 void check_same_figure(const std::string& drawn, const std::string& kept);
 
-/// What the groups of a pattern match in a text, one after the other.
+/// The texts that the groups of a pattern match, in order.
 std::vector<std::string> matches(const std::string& text, const std::string& pattern);
 
 }  // namespace rheonet::test

@@ -32,7 +32,7 @@ class ReferenceNetwork {
     double K = 0;      ///< of the spring that stands for it while a step is sought (see minimise)
     double found = 0;  ///< its force at the present point
   };
-  /// What a step is given.
+  /// Input of a step.
   struct Input {
     double h = 0;
     std::vector<double> displacement;  ///< of prescribed nodes
@@ -44,10 +44,10 @@ class ReferenceNetwork {
 
   ReferenceNetwork(std::vector<Node> nodes, std::vector<ReferenceBundle> bundles, std::vector<Gear> gears = {});
 
-  /// Takes one step. False if there is no minimum: nothing resists what is applied.
+  /// Takes one step. Returns false if there is no minimum: nothing resists the applied force.
   bool step(const Input& input);
-  /// What rounding may have left out of balance in it, as a share of the largest force: displacements of both ends of a law
-  /// are rounded, and in a short step the laws are steep.
+  /// Imbalance by round-off in the last step, as a fraction of the largest force: the displacements of both ends of a law are rounded, and in
+  /// a short step the laws are steep.
   double blur() const { return blur_; }
   /// The velocities are those of an instant from here on, and no means: s is h in the next step.
   void begin() { before_ = 0; }
@@ -94,8 +94,8 @@ class ReferenceNetwork {
   std::vector<NodeId> node_of_;         ///< of each unknown
   std::vector<double> x_;               ///< displacement of each node in this step
   std::vector<ReferenceBundle::Point> points_;
-  std::vector<double> preload_, K_;     ///< of each steep bundle (see minimise)
-  std::vector<double> gradient_, size_; ///< of each unknown: what is out of balance, and the sum of magnitudes there
+  std::vector<double> preload_, K_;     ///< For each steep bundle (see minimise).
+  std::vector<double> gradient_, size_; ///< For each unknown: the imbalance, and the sum of magnitudes of the forces.
   std::vector<double> matrix_;
   std::vector<double> nodal_;
   double blur_ = 0;                     ///< see blur

@@ -58,7 +58,7 @@ Child started(const Apart& apart, int number) {
   return {number, process, ends[0], ""};
 }
 
-/// Takes what there is; false at the end.
+/// Reads the available output. Returns false at its end.
 bool read_some(Child& child) {
   char buffer[4096];
   const ssize_t n = read(child.output, buffer, sizeof buffer);

@@ -6,9 +6,9 @@
 
 namespace rheonet::test {
 
-/// Calls work(number) for each number in a process of its own, up to `jobs` at a time, and done(number, result) here with
-/// what it returned, in no certain order. One that crashes, or takes more than `seconds` of a core, harms no other: its
-/// result is the one that lost(number, why) makes.
+/// Calls work(number) for each number in a separate process, up to `jobs` at a time, and done(number, result) in this process with the
+/// returned value, in any order. If a process crashes or uses more than `seconds` of CPU time, the result is that of lost(number, why);
+/// the other processes are not affected.
 struct Apart {
   std::function<std::string(int number)> work;
   std::function<void(int number, const std::string& result)> done;

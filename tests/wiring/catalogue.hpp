@@ -20,13 +20,14 @@ struct Wiring {
   Drive drive = Drive::velocity;
 };
 
-/// All of them, each at the index that is its number:
+/// All scenes; the index of a scene is its number:
 ///  * every ordered pair and triple of the six laws in series, in parallel, and triples in each tree of three leaves; each
 ///    with masses at the nodes between and without, with each drive;
 ///  * random series-parallel trees of 4 to 8 leaves;
 ///  * random graphs that are not series-parallel;
 ///  * random trees of 2 to 6 leaves with a slider whose bounds vary, called `brake`, or with a freewheel;
-///  * random trees with one or two elastic stops, and random graphs with one or two gears, whose support may move, and perhaps a stop; with a mass at each node.
+///  * random trees with one or two elastic stops, and random graphs with one or two gears, whose support may move, and perhaps a stop;
+///    with a mass at each node.
 const std::vector<Wiring>& catalogue();
 
 /// The netlist of a wiring: generic values that follow from its number, no two of them equal. `stop` is about 1 s, forces

@@ -25,7 +25,7 @@ constexpr double same_end = 3e-3;
 // near already, what its shortest are off by is rounding, within its own estimate.)
 constexpr double told = 1e-5;
 
-/// What the bounds of the forces say against the reference itself; "" if they agree.
+/// Contradiction between the bounds of the forces and the reference; "" if they agree.
 std::string contradiction(const Scene& scene, const ReferenceSolution& reference) {
   const double slack = same_end * (scene.stop - scene.start);
   const std::optional<double> might = first_above(scene, &Capacity::sliding, 1 - 1e-6);
@@ -45,7 +45,7 @@ bool beyond_bounds(const Scene& scene, const std::string& refusal) {
   return must && says(refusal, overload) && std::abs(time_in(refusal) - *must) <= same_end * (scene.stop - scene.start);
 }
 
-/// What is wrong with how the run ended; "" if it did as the reference.
+/// Judges the end of the run. Returns "" if it ended like the reference, else the error.
 std::string wrong_end(const Scene& scene, const std::string& refusal, const ReferenceSolution& reference) {
   if (reference.complete) return refusal.empty() ? "" : "refused: " + refusal;
   const std::string expected = fmt::format("{} at {:.6g} s", overload.name, reference.end);
@@ -106,7 +106,7 @@ Judgement judge(const Wiring& wiring, bool closer) {
   for (const int more : {closer ? 4 : 0, 2, 4}) {
     ReferenceSettings settings;
     settings.halvings += more;
-    // What did not do is not to be taken for good again.
+    // A retry needs a tighter target, otherwise it would accept the same solution.
     if (more > 0) settings.target *= 1e-2;
     result = beside(scene, run, integrate_reference(scene, declarations(), settings));
     const bool refused_without_need = !run.refusal.empty() && !says(run.refusal, overload);

@@ -19,7 +19,7 @@ struct Judgement {
   double deviation = 0;  ///< the worst, of a record's scale
   double judged = 0;     ///< share of the values that the reference is sure of
   int reference_steps = 0;
-  std::string text;      ///< where the worst deviation is; what is wrong
+  std::string text;      ///< Place of the largest deviation, or the error.
 };
 
 /// Runs the scene, integrates it independently, and compares. Where the two do not agree the reference takes shorter steps,

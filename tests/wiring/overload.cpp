@@ -36,7 +36,7 @@ const SceneElement* push_of(const Scene& scene) {
   return found == scene.elements.end() ? nullptr : &*found;
 }
 
-/// The least sum, over all sets of nodes that the push may move alone, of what the elements that leave the set carry.
+/// Minimum cut: the least capacity of the elements that leave a set of nodes, over all sets that the force could move on their own.
 double least_cut(const Scene& scene, NodeId pushed, bool sticking, double t, int direction) {
   const std::size_t nodes = scene.nodes.size();
   std::vector<char> held(nodes, 0);

@@ -71,7 +71,7 @@ View from_moving_frame(Scene scene, double v) {
       (r.channel == Record::Channel::velocity ? view.columns[k].offset : view.columns[k].rate) = v;
     }
   }
-  // What was fixed to the ground is fixed to something that stands still, and can move.
+  // The elements at ground are moved to a node that stands still but could move.
   const NodeId base = static_cast<NodeId>(scene.nodes.size());
   scene.nodes.push_back({.name = "base", .spot = {}});
   for (SceneElement& e : scene.elements) {

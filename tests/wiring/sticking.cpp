@@ -26,9 +26,9 @@ struct Force {
   const std::vector<double>* velocity = nullptr;  ///< of one that sticks
 };
 
-/// What a force may be.
+/// Range of a force.
 struct Range { double low, high; };
-/// While it sticks, and while it slips one way and the other.
+/// The ranges of a slider's force while it sticks and while it slips.
 struct Ranges { Range sticking, sliding; };
 
 Ranges ranges_of(const SceneElement& e, double t) {
