@@ -149,7 +149,7 @@ void check(const Scenery& scenery, int pairs, unsigned seed, double accuracy) {
   CAPTURE(seed);
   CAPTURE(accuracy);
   const Scene scene = Maker(scenery, pairs, seed, false, accuracy).scene;
-  // Do not count the pairs that the drive stretches beyond their bound at the start.
+  // A pair that a step of the drive stretches too much at the start is not combined.
   const std::size_t all = static_cast<std::size_t>(pairs) + (scenery.behind == "pairs" ? 2 : 0);
   const std::size_t found = build_network(scene).pairs.size();
   CHECK(found <= all);

@@ -56,7 +56,7 @@ class Groups {
   std::vector<std::size_t> of_;
 };
 
-/// What a symbol covers, a little less than to its edge.
+/// The area of a symbol, slightly shrunk.
 Box covered(const Mark& mark, const Scene& scene) {
   const Reach reach = reach_of((mark.of_support ? support_symbol() : symbol_of(scene, mark.element)));
   const double height = mark.box.bottom - mark.box.top, middle = (mark.box.top + mark.box.bottom) / 2;
@@ -208,7 +208,7 @@ class Inspection {
   };
 
   void signals() {
-    // Of the parts of an element by a law only the signals that come from other blocks are drawn, each once.
+    // For an element with a law of the netlist, only signals from other blocks are drawn, each once.
     const auto of = [&](int block) -> const SceneElement& { return scene_.elements[static_cast<std::size_t>(scene_.blocks[static_cast<std::size_t>(block)].element)]; };
     std::size_t expected = 0;
     std::set<std::pair<int, std::string>> taken;
