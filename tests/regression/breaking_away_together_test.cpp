@@ -36,9 +36,8 @@ record = ["w.velocity"]
   }
 }
 
-// Each ended in "switches over and over" or "cannot be balanced", for three reasons: bounds of 0 that round-off seemed to exceed, iterations
-// of gear forces that were less accurate than the dead bands of guards, and brakes that a gear holds at rest at their bound but that counted
-// as slipping.
+// Each ended in "switches over and over" or "cannot be balanced", for one of three reasons. Round-off seemed to exceed bounds of 0. Iterations
+// of gear forces were less accurate than the dead bands of guards. Brakes that a gear holds at rest at their bound counted as slipping.
 TEST_CASE("breaking away together: scenes that round-off decided") {
   struct Held { std::string type, at, values; };  ///< Element between shaft `at` and ground.
   struct Shafts {

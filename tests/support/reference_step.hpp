@@ -89,20 +89,20 @@ class ReferenceNetwork {
   std::vector<Node> nodes_;
   std::vector<ReferenceBundle> bundles_;
   std::vector<Gear> gears_;
-  double before_ = 0;                   ///< length of the last step, 0 for none
-  std::vector<int> unknown_;            ///< of each node; -1 if prescribed
-  std::vector<NodeId> node_of_;         ///< of each unknown
-  std::vector<double> x_;               ///< displacement of each node in this step
+  double before_ = 0;                   ///< Size of the last step, 0: none.
+  std::vector<int> unknown_;            ///< For each node its unknown; -1: prescribed.
+  std::vector<NodeId> node_of_;         ///< For each unknown its node.
+  std::vector<double> x_;               ///< Displacement of each node in this step.
   std::vector<ReferenceBundle::Point> points_;
   std::vector<double> preload_, K_;     ///< For each steep bundle (see minimise).
   std::vector<double> gradient_, size_; ///< For each unknown: the imbalance, and the sum of magnitudes of the forces.
   std::vector<double> matrix_;
   std::vector<double> nodal_;
-  double blur_ = 0;                     ///< see blur
-  double unbalance_ = 0;                ///< the worst, of what rounding may leave
-  double largest_force_ = 0, largest_step_ = 0;  ///< at the present point
-  double typical_step_ = 0;             ///< at any balance found in this step
-  double rounding_ = 1e-300;            ///< of forces that are reckoned as a part of a Coulomb level [N]
+  double blur_ = 0;                     ///< See blur().
+  double unbalance_ = 0;                ///< Largest imbalance relative to round-off.
+  double largest_force_ = 0, largest_step_ = 0;  ///< At the present point.
+  double typical_step_ = 0;             ///< At any balance found in this step.
+  double rounding_ = 1e-300;            ///< Round-off of forces that are computed as a fraction of a Coulomb force [N].
   bool ambiguous_ = false, forked_ = false;
 };
 

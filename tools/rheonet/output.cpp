@@ -193,7 +193,7 @@ bool Output::finish() {
   }
   finishing_ = true;
   if (writing_ == Writing::complete && path_ != "-") {
-    replacement_.reset();  // removes the temporary file: what it holds is not complete
+    replacement_.reset();  // Removes the temporary file, which is incomplete.
     if (created_) ::unlink(path_.c_str());
     return false;
   }
@@ -243,7 +243,7 @@ int Output::close() {
     replacement_.reset();
   } else {
     left_alone_ = writing_ == Writing::complete && !touched_;
-    // Some file systems report only here that the disk is full.
+    // Some file systems report a full disk only here.
     if (::close(descriptor_) != 0 && error_ == 0) error_ = errno;
   }
   if (folder_ >= 0) ::close(folder_);

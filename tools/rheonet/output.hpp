@@ -14,14 +14,13 @@ namespace rheonet::tool {
 class Output {
  public:
   enum class Writing {
-    as_it_comes,  ///< an existing file is emptied when the first row comes, not before; a full disk leaves whole rows
-    complete,     ///< `close` replaces an existing file if every write succeeded; else the file stays as it is
+    as_it_comes,  ///< The first row empties an existing file; a full disk leaves complete rows.
+    complete,     ///< `close` replaces an existing file if every write succeeded, and otherwise leaves it unchanged.
   };
 
   /// `path` "-" is standard output. Throws std::system_error if the file cannot be opened for writing.
   explicit Output(const std::string& path, Writing writing = Writing::as_it_comes);
-  /// A file whose first bytes are kept, so many with so many lines: what is written comes after them, and nothing of what
-  /// stood there is lost before.
+  /// Appends to the first `bytes` bytes (`lines` lines) of an existing file. The rest of the file is kept until the first write.
   Output(const std::string& path, std::size_t bytes, long lines);
   /// Converts the rows of CSV into a table of another format, which replaces an existing file when it is closed.
   Output(const std::string& path, std::unique_ptr<TableWriter> table);
@@ -44,7 +43,7 @@ class Output {
 
   /// Closes the output. Returns the error (errno) of this or any earlier write, 0 if all writes succeeded.
   int close();
-  /// Closes, and leaves a file that was there before as it was, if it is written only when complete.
+  /// Closes the output. With `Writing::complete`, an existing file stays unchanged.
   void abandon();
 
  private:
@@ -68,8 +67,8 @@ class Output {
   std::size_t begun_ = 0;  ///< Bytes written since the last complete row.
   bool created_ = false;
   bool touched_ = false;
-  bool finishing_ = false;  ///< no write may wait for a reader any more
-  std::size_t kept_ = 0;  ///< bytes of an earlier writing
+  bool finishing_ = false;  ///< Writes no longer wait for a reader.
+  std::size_t kept_ = 0;  ///< Bytes of an existing file that are kept.
   Writing writing_;
   bool abandoned_ = false;
   bool left_alone_ = false;  ///< Closed without a change of the file.
@@ -78,14 +77,13 @@ class Output {
   std::unique_ptr<TableWriter> table_;  ///< nullptr for CSV.
 };
 
-/// Opens it; nullptr, and an error message, if that is not possible.
+/// Opens an output. Returns nullptr, after an error message, if that is not possible.
 std::unique_ptr<Output> open_output(const std::string& path, Output::Writing writing);
 
 /// The same for rows that are appended to the first `bytes` bytes (`lines` lines) of an existing file.
 std::unique_ptr<Output> open_output_after(const std::string& path, std::size_t bytes, long lines);
 
-/// A table of the layout, in the format that the ending of the name says: rows go to the Output as CSV. Without a format of its own
-/// it is CSV.
+/// Opens a table in the format of the file's ending, CSV if the ending is not that of another format. Rows are written to the Output as CSV.
 std::unique_ptr<Output> open_table(const std::string& path, Output::Writing writing, tables::Layout layout);
 
 /// Writes a text and closes. Returns false, after an error message, if it could not be written completely. `row` is the word for a line.

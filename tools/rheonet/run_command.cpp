@@ -116,7 +116,7 @@ ExitStatus run_scene(const Arguments& arguments) {
 
   const std::atomic<bool>& interrupted = end_on_signals();
   Outputs outputs;
-  // The rows that are certified come when they are known to be good: an earlier result stays until then.
+  // Certified rows are written when the certificate holds; an earlier file is kept until then.
   const auto writing = arguments.certify ? Output::Writing::complete : Output::Writing::as_it_comes;
   outputs.rows = open_table(arguments.output, writing, layout_of(*read.scene, arguments.sensitivities));
   if (!outputs.rows) return wrong_input;

@@ -22,9 +22,9 @@ struct SweepFigure {
 /// Whether a value, as `--set` takes it, is a number without reference to other values.
 bool is_number(const std::string& value);
 
-/// The columns of a sweep's table, and its rows as CSV. The columns are the number of the run, from 1 on; the varied values in SI, or as
-/// text; the measures (one row for each run) or the time and the records (many rows); and the reason why a run failed. Headings have
-/// units, as in `k1.force [N]`; the heading of a number has none.
+/// The columns of a sweep's table, and its rows as CSV. The first columns are the number of the run, from 1 on, and the varied values in SI,
+/// or as text. Then come the measures (one row for each run), or time and records (many rows). The last column has the reason why a run
+/// failed. Headings have units, as in `k1.force [N]`; the heading of a number has none.
 class SweepTable {
  public:
   /// Returns a NoVariation if a measure is misspelt. A measure of the run as a whole has no brackets, a measure of a record has.

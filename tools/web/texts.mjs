@@ -1,6 +1,6 @@
-// The texts in the sources of the playground: which are given to t() (src/messages.js), and which look like texts but are not.
-// `NODE_PACKAGES=build/release/tools/web node tools/web/texts.mjs` prints what is missing in the sources and in the files of src/messages; the test
-// tests/web/messages.test.mjs fails on the same.
+// The texts in the sources of the playground: those passed to t() (src/messages.js), and those that look like texts but are not passed to it.
+// `NODE_PACKAGES=build/release/tools/web node tools/web/texts.mjs` prints the faults in the sources and in the files of src/messages. The test
+// tests/web/messages.test.mjs fails on the same faults.
 import { readdirSync, readFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import { dirname, join, resolve } from 'node:path';
