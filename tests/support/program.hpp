@@ -12,7 +12,7 @@ struct Finished {
   std::string err;
 };
 
-/// An empty folder that is gone, with all in it, when the test ends.
+/// An empty folder, which is removed with its contents at the end of the test.
 class Folder {
  public:
   Folder();

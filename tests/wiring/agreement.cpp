@@ -34,7 +34,7 @@ std::size_t kind_of(const Record& record) {
     case Record::Channel::position:
     case Record::Channel::displacement:
       break;
-    default:  // these scenes record nothing else
+    default:  // These scenes have no other records.
       break;
   }
   return 2;

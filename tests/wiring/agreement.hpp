@@ -8,8 +8,8 @@
 
 namespace rheonet::test {
 
-/// How the rows of a run lie beside those of the reference. A value of the reference counts if its own estimate of its
-/// error is small beside the scale of its record; what it holds to be doubtful is left out.
+/// Agreement between the rows of a run and those of the reference. A value of the reference is judged only if its error estimate is small
+/// relative to the scale of its record.
 struct Agreement {
   double worst = 0;     ///< Largest deviation relative to the tolerance from the reference's doubt and the accuracy: <= 1 is agreement.
   double deviation = 0; ///< The same deviation relative to the record's scale.

@@ -15,9 +15,9 @@ struct Apart {
   std::function<void(int number, const std::string& why)> lost;
   int jobs = 1;
 #if defined(__SANITIZE_ADDRESS__)
-  int seconds = 400;  // sanitizers take seven times as long
+  int seconds = 400;  // Sanitizers take seven times as long.
 #else
-  int seconds = 60;  // a scene takes a fraction of one, the slowest a few
+  int seconds = 60;  // A scene takes a fraction of a second, the slowest a few seconds.
 #endif
 
   void run(const std::vector<int>& numbers) const;

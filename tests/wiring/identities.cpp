@@ -19,12 +19,12 @@ namespace rheonet::test {
 
 namespace {
 
-// Times the accuracy asked for. Two runs are each within 1 of the truth by what the simulator promises.
+// Tolerances as multiples of the accuracy. The simulator promises that each run is within 1 of the exact solution.
 constexpr double of_energy = 10, of_accuracy = 20;
 constexpr double slip_rounding = 1e-12;
-// Two ends of a scene that cannot go on, of its length.
+// Allowed difference between the ends of two refused runs, as a fraction of the run's length.
 constexpr double same_end = 1e-4;
-// A record this much smaller than the largest of its kind is 0 but for rounding; m | m/s | N: where all of a kind is.
+// A record below the fraction `nothing` of the largest of its kind is 0 except for round-off. `least`: smallest scale [m | m/s | N].
 constexpr double nothing = 1e-6, least = 1e-3;
 // Records below the fraction `little` of the largest of their kind come from tiny motions, such as a slip of nanometres at the peak of a
 // force, which depend on the last digits of the accuracy. A run with an accuracy tighter by the factor `finer` judges these.
@@ -57,7 +57,7 @@ std::string wrong_energy(const Scene& scene, const Summary& whole) {
   return "";
 }
 
-/// "" or where friction is beyond its bounds.
+/// Judges the bounds of friction. Returns "" or the place of a violation.
 std::string wrong_friction(const Scene& scene, const RunTable& rows) {
   for (const SceneElement& e : scene.elements) {
     const std::string& type = declarations()[static_cast<std::size_t>(e.declaration)]->type;
@@ -92,7 +92,7 @@ struct Difference {
   double worst = 0;
   std::string where;
   double first = std::numeric_limits<double>::infinity();
-  bool of_little = true;  ///< nothing but records that are little beside others of their kind are beyond it
+  bool of_little = true;  ///< Only records below the fraction `little` of their kind exceed the tolerance.
 };
 
 std::string channel_of(const std::string& path) {
@@ -129,7 +129,7 @@ Difference difference(const View& view, const RunTable& original, const RunTable
   return result;
 }
 
-/// The same of a run that is so much more accurate.
+/// The same for a run with an accuracy tighter by the factor `finer`.
 Difference finer_difference(const View& view, const Scene& scene) {
   Scene original = scene, other = view.scene;
   original.accuracy = other.accuracy = finer * scene.accuracy;
@@ -148,10 +148,10 @@ std::string wrong_end(const View& view, const Scene& scene, const std::string& r
   return same ? "" : fmt::format("refused otherwise: {}, but {}", refusal, seen);
 }
 
-/// The laws leave open how the scene goes on from some time before this: any of many solutions is right.
+/// Whether the laws do not determine the motion from some time before t: then many solutions are correct.
 bool open_before(const Scene& scene, double t) { return integrate_reference(scene, declarations(), {}).fork <= t; }
 
-/// A run beside the views of it.
+/// Compares a run with its views.
 Judgement judge_views(const Scene& scene, const Attempt& run, const std::vector<View>& views, Judgement result) {
   for (const View& view : views) {
     const Attempt seen = attempt(view.scene);

@@ -17,12 +17,12 @@ namespace rheonet::test {
 
 namespace {
 
-// Less than this share of sure values decides nothing.
+// Smallest fraction of certain values for a verdict.
 constexpr double enough = 0.5;
-// Both ends of a scene that cannot go on lie this near to each other, of its length: some steps of the reference.
+// Allowed difference between the ends of a refused run and of the reference, as a fraction of the run's length: some steps of the reference.
 constexpr double same_end = 3e-3;
-// A slope of the deviation from the reference over its step can be told above this, of the scale. (Where its longest steps are as
-// near already, what its shortest are off by is rounding, within its own estimate.)
+// The dependence of the deviation on the reference's step is significant above this fraction of the scale. (If its longest steps are already
+// as close, the deviation of its shortest steps is round-off, within its own estimate.)
 constexpr double told = 1e-5;
 
 /// Contradiction between the bounds of the forces and the reference; "" if they agree.
@@ -39,7 +39,7 @@ std::string contradiction(const Scene& scene, const ReferenceSolution& reference
   return "";
 }
 
-/// The bound on the forces alone shows that the scene cannot go on where the run was refused for that.
+/// Whether the run was refused for an overload, and the capacity alone shows that the scene cannot continue there.
 bool beyond_bounds(const Scene& scene, const std::string& refusal) {
   const std::optional<double> must = first_above(scene, &Capacity::sticking, 1 + 1e-6);
   return must && says(refusal, overload) && std::abs(time_in(refusal) - *must) <= same_end * (scene.stop - scene.start);
@@ -100,7 +100,7 @@ Judgement judge(const Wiring& wiring, bool closer) {
   const Attempt run = attempt(scene);
   Judgement result;
   if (says(run.refusal, jammed)) return {.verdict = Verdict::refused, .text = run.refusal};
-  // How sticking sliders share a load the reference does not know; balance and least norm do.
+  // The reference does not determine how sticking sliders share a load; balance and least norm do.
   result.text = wrong_sticking(scene, run.rows);
   if (!result.text.empty()) return result;
   for (const int more : {closer ? 4 : 0, 2, 4}) {

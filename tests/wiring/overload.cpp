@@ -14,7 +14,7 @@ namespace {
 
 const Declaration& declared(const SceneElement& e) { return *declarations()[static_cast<std::size_t>(e.declaration)]; }
 
-/// The largest forces that an element takes, either way [N].
+/// The largest forces that an element can carry in both directions [N].
 struct Carries { double forward, backward; };
 Carries carries(const SceneElement& e, bool sticking, double t) {
   if (declared(e).type == "freewheel") return {0, INFINITY};
