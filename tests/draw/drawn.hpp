@@ -21,9 +21,8 @@ std::vector<std::string> scene_files();
 /// * the wires of a node are one piece that all its ends touch; those of ground may be several, each with a wall;
 /// * wires of different nodes do not meet, unless one hops over the other;
 /// * no symbol or label overlaps another, and no wire runs through a label or through a symbol that is not its own;
-/// * signals begin and end at the sides of blocks or at texts, one for each input and feed; they run through nothing,
-/// and on
-///   each other only if they are the same signal;
+/// * signals begin and end at the sides of blocks or at texts, one for each input and feed; they cross no symbol, and overlap each other
+///   only if they are the same signal;
 /// * everything is inside the picture.
 std::string faults_of(const draw::Picture& picture, const Scene& scene);
 

@@ -13,9 +13,9 @@ namespace rheonet::test {
 ///
 ///     sum over bundles  int f d(step)  +  sum over masses  m (h/s) (x/h - v)^2/2  -  sum  F x
 ///
-/// v is the mean velocity in the step before, s the time between the middles of both: else a mass that moves as prescribed
-/// would feel a force without bound whenever a short step follows a long one.
-/// where each law is a monotone map from the displacement of its ends to its force at the end of the step.
+/// where each law is a monotone map from the displacement of its ends to its force at the end of the step. v is the mean velocity in the step
+/// before, s the time between the middles of both steps: with s = h the inertial force of a mass in prescribed motion would be unbounded when
+/// a short step follows a long one.
 class ReferenceNetwork {
  public:
   struct Node {
