@@ -214,8 +214,8 @@ TEST_CASE("delayed feedback: the method of steps") {
   }
 }
 
-// The same where T is much less than a step: by the Laplace transform x = exp(l (t + T))/(1 + l T) with l = -k exp(-l T),
-// the root next to 0, as soon as t is some delays; the other roots are gone then.
+// The same for a delay T much shorter than a step. By the Laplace transform x = exp(l (t + T))/(1 + l T), where l = -k exp(-l T) is the root
+// nearest to 0. The other roots have decayed after some delays.
 TEST_CASE("delayed feedback through a delay much shorter than a step") {
   constexpr double k = 1.37;
   for (const double T : {1e-2, 1e-4, 1e-7, 1e-12}) {

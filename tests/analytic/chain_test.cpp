@@ -1,6 +1,5 @@
-// A chain of N masses m joined by springs k, one end fixed and the other free, against its normal modes
-// (Rayleigh, Theory of Sound, chapter VI): with a = (2j-1) pi/(2N+1), mode j is sin(i a), i = 1..N, and swings with
-// omega = 2 sqrt(k/m) sin(a/2).
+// A chain of N masses m joined by springs k, one end fixed and the other free, against its normal modes (Rayleigh, Theory of Sound,
+// chapter VI). Mode j is sin(i a), i = 1..N, with a = (2j-1) pi/(2N+1). Its angular frequency is omega = 2 sqrt(k/m) sin(a/2).
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 

@@ -67,7 +67,7 @@ void check_trees(const std::string& drive) {
     compare(composed["tree.displacement"], wired["end.position"], same_order, "tree.displacement");
     compare(composed["tree.velocity"], wired["end.velocity"], same_order, "tree.velocity");
 
-    // What the drive gives goes into the tree, and into the mass if there is one.
+    // The drive's force acts on the tree, and on the mass if there is one.
     std::vector<double> taken = composed["tree.force"];
     if (drive == pushed) {
       for (std::size_t row = 0; row < taken.size(); ++row) taken[row] += composed["inertia.force"][row];

@@ -31,7 +31,7 @@ gap   = {{ type = "couette", between = ["wall", "plate"], B = "B", m = "m", N = 
 }
 std::string including(const std::string& text) { return "include = [\"library/couette.toml\"]\n" + text; }
 
-constexpr int terms = 400;  // for t > 0.002 T1 what follows is nothing
+constexpr int terms = 400;  // Further terms are negligible for t > 0.002 T1.
 double sign(int n) { return n % 2 ? 1 : -1; }
 
 /// Eqs. 47, 55 and 52: velocity at the share y of the gap from the fixed wall, and the force on that wall.

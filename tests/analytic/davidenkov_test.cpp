@@ -97,8 +97,8 @@ exponent = "n"
                  stop);
 }
 
-/// Turning points in units of the travel to the bound: loops within loops that close one after the other, two at once,
-/// the mirror of the first reversal, its way on along the first loading, flow at the bound, and loops from there.
+/// Turning points in units of the travel to the bound. They contain nested loops that close one after the other, two loops that close at
+/// once, the mirror of the first reversal, the continuation along the first loading, flow at the bound, and loops from the bound.
 const std::vector<double> turns = {0,    0.61, -0.23, 0.37, 0.07, 0.29, -0.41, 0.53, 0.11, 0.47, 0.31, 0.57,
                                    0.19, 0.71, -0.83, 0.13, 1.47, 0.91, 1.73,  0.53, 1.21, 0.03, 2.11, -0.7};
 constexpr double tick = 0.1137;  // a row falls on none of the corners

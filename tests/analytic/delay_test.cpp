@@ -17,8 +17,8 @@ namespace {
 
 constexpr double B = 1.9, sigma = 31.0, TD = 0.075;
 
-/// A classical Runge-Kutta method with a fixed step that divides the delay, for y' = f(t, y, y(t - delay)). What is a
-/// delay ago at a half step is taken from the two derivatives there as well (Hermite). y = 0 before t = 0.
+/// The classical Runge-Kutta method with a fixed step that divides the delay, for y' = f(t, y, y(t - delay)). The delayed value at a half
+/// step is interpolated from values and derivatives (Hermite). y = 0 before t = 0.
 struct Delayed {
   std::vector<double> y0;
   std::function<std::vector<double>(double t, const std::vector<double>& y, const std::vector<double>& past)> f;
@@ -127,8 +127,7 @@ TEST_CASE("delays far shorter and far longer than a step: a given motion comes t
   }
 }
 
-// m dv/dt = -f at a mass that moves freely: with a delay of 1e-4 s, which is less than a step, what it does is within that delay's
-// share of what it does without.
+// m dv/dt = -f at a free mass. A delay of 1e-4 s, which is shorter than a step, changes the motion by a fraction of the order of the delay.
 TEST_CASE("a delay far shorter than what happens changes it by as little") {
   const auto run = [](double delay) {
     SceneBuilder b;
@@ -224,8 +223,8 @@ TEST_CASE("without a mass: a delayed vfm behind a dashpot, and behind a spring")
   }
 }
 
-// The spring's node follows the motion until something comes through: in no error test, and yet what is felt later. Then
-// T f' + f = B A sin(w (t - TD)).
+// The node of the spring follows the motion, without a force, until the delayed force arrives. Its motion is in no error test, but acts on
+// the force a delay later: T f' + f = B A sin(w (t - TD)).
 TEST_CASE("what follows a motion through a spring, without any force, is felt a delay later to the accuracy") {
   constexpr double A = 0.13, k = 200, lag = B / sigma, late = 0.7;
   for (const double frequency : {1.3, 5.1, 20.3}) {

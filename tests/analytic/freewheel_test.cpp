@@ -309,7 +309,7 @@ output = {{ points = 231 }}
   }
 }
 
-// A belt that goes to and fro drives a mass one way through friction. m v' = Fc while the belt is faster; else v' = 0.
+// An oscillating belt drives a mass in one direction through friction: m v' = Fc while the belt is faster, otherwise v' = 0.
 TEST_CASE("freewheel: in series with a slider it drives one way") {
   const double m = 1.7, Fc = 2.3, V = 1.9, half = 1 / (2 * 0.71), stop = 8 * half;
   const auto velocity = [=](double t) {

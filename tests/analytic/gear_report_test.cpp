@@ -1,4 +1,4 @@
-// What certificates, messages and explanations say of scenes with transmissions.
+// Certificates, messages and explanations of scenes with transmissions.
 #include <doctest/doctest.h>
 
 #include <string>

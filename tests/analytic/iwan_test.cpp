@@ -53,7 +53,7 @@ void check_position(int n, double accuracy) {
   // Two unknowns whatever n, and no restart at a yield but where a single one counts.
   CHECK_EQ(s.unknowns, 2);
   if (n > 33) CHECK_LE(s.restarts, 20);
-  // All yields are told nevertheless: one more or less near the end of a half cycle.
+  // Yet all yields are counted, up to one near the end of a half cycle.
   const auto told = double(s.events), true_ones = double(exact.history().size());
   CHECK_LE(std::abs(told - true_ones), 2 + 1e-3 * true_ones);
 }
@@ -143,7 +143,7 @@ TEST_CASE("Iwan bundle: every yield is told of at its time, though few are event
     exact.advance(stop);
     REQUIRE_EQ(told.size(), exact.history().size());
     CHECK(std::is_sorted(told.begin(), told.end(), [](const Told& a, const Told& b) { return a.t < b.t; }));
-    // Of what sticks at one instant the order says nothing: each element has its own story.
+    // The order of sticks at the same instant is arbitrary, so compare the events of each element separately.
     for (int i = 0; i < n; ++i) {
       std::vector<Told> mine;
       std::vector<IwanOscillator::Yield> expected;

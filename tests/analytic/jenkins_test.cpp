@@ -45,7 +45,7 @@ Path straight(const std::string& name, const std::vector<double>& positions) {
   const auto speed = [=](double t) { return (positions[leg(t) + 1] - positions[leg(t)]) / tick; };
   return {name,
           "position = { table = [" + points + "] }",
-          (double(positions.size()) - 1.003) * tick,  // not to the last corner: the row there holds what is after it
+          (double(positions.size()) - 1.003) * tick,  // End before the last corner, where the row would have the right limit.
           turns,
           [=](double t) { return positions[leg(t)] + speed(t) * (t - double(leg(t)) * tick); },
           speed};

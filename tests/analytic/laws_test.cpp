@@ -160,7 +160,7 @@ TEST_CASE("laws: mistakes are told where they stand") {
   says("[laws.spring]\nforce = \"d\"", "`spring` is an element type already");
 }
 
-// An unknown name and a wrong unit are told once, for the law, however many elements it has.
+// An unknown name and a wrong unit are reported once for a law, independent of the number of its elements.
 TEST_CASE("laws: names and units in the expressions of a law") {
   const auto told = [](const std::string& law, const std::string& message) {
     CHECK_EQ(refusal("[parameters]\nmu = 0.3\n" + law + R"(
@@ -224,7 +224,7 @@ mass = { type = "mass", at = "x", mass = "m" }
     CAPTURE(elements);
     check_at_all_accuracies(scene(law, elements), expected);
   }
-  // In a model the wire names what is in the model.
+  // Within a model the wire refers to elements of the model.
   check_at_all_accuracies(scene(law + R"(
 [models.servo]
 ports      = ["p", "q"]
@@ -235,7 +235,7 @@ h = { type = "drag", between = ["p", "q"], c = 0.7, u = { block = "b" } }
 )", "e = { type = \"servo\", between = [\"x\", \"ground\"], rise = \"a\", from = \"t0\" }\n"), expected);
 }
 
-// What it stores changes with a prescribed motion, and with an input.
+// The stored energy depends on a prescribed motion and on an input.
 TEST_CASE("laws: what is dissipated where the stored energy depends on motions and inputs that are given") {
   const double V = 0.37, k = 3.1, c = 0.7, a = 1.9;
   const Expectations expected = {{"h.force", [=](double t) { return k * V * t + c * V; }}, {"h.dissipated", [=](double t) { return c * V * V + 0 * t; }},

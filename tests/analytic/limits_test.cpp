@@ -104,7 +104,7 @@ TEST_CASE("friction models are the laws of their limits, to the accuracy asked")
   }
 }
 
-// What is left of the other terms is proportional to the distance from the limit.
+// The remaining terms are proportional to the distance from the limit.
 TEST_CASE("cfm on its way to its limits: the difference falls as the distance does") {
   const auto far = [](double value, double times) { return fmt::format("{:.17g}", value * times); };
   struct Way {

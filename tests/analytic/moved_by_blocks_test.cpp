@@ -1,4 +1,4 @@
-// Motions that blocks give: against the same motion given as a signal, against closed forms, and what is refused.
+// Motions driven by blocks, against the same motions as signals and against closed forms; and the refused cases.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
@@ -13,7 +13,7 @@ namespace rheonet::test {
 
 namespace {
 
-/// Every kind of law between what moves and the ground, and something with mass and without behind it.
+/// Every kind of law between the driven node and ground, and beyond it nodes with and without mass.
 const char* const body = R"(
 spring  = { type = "spring",  between = ["a", "ground"], stiffness = 53 }
 dashpot = { type = "dashpot", between = ["a", "ground"], damping = 1.9 }

@@ -18,7 +18,7 @@ namespace {
 constexpr double stop = 1.37;
 constexpr int rows = 60;
 
-/// What drives the node `end`, and what is behind the pairs.
+/// The drive of the node `end`, and the elements beyond the pairs.
 struct Scenery {
   std::string drive;  ///< "position", "steps" (of position), "velocity", "force" (on a mass) or "load" (on no mass)
   std::string behind;
@@ -92,8 +92,8 @@ class Maker {
 
 bool jumps(const std::string& column) { return column.ends_with(".velocity"); }
 
-/// The largest magnitude of what is recorded in the same unit: beside it a slider that hardly slips shows what the
-/// solver leaves open.
+/// The largest magnitude of all records in the same unit. The record of a slider that hardly slips is mostly solver error, and has no scale of
+/// its own.
 double scale_of(const std::string& column, const RunTable& run) {
   const auto kind = [](const std::string& path) {
     const std::string channel = path.substr(path.rfind('.') + 1);
@@ -149,7 +149,7 @@ void check(const Scenery& scenery, int pairs, unsigned seed, double accuracy) {
   CAPTURE(seed);
   CAPTURE(accuracy);
   const Scene scene = Maker(scenery, pairs, seed, false, accuracy).scene;
-  // What the drive stretches too much from the start does not count.
+  // A pair that a step of the drive stretches too much at the start is not combined.
   const std::size_t all = static_cast<std::size_t>(pairs) + (scenery.behind == "pairs" ? 2 : 0);
   const std::size_t found = build_network(scene).pairs.size();
   CHECK(found <= all);

@@ -270,7 +270,7 @@ stop = { type = "stop", between = ["x", "ground"], upper = "bound", stiffness = 
   }
 }
 
-// The hand jumps to and fro. On the way back the node y leaves one bound and meets the other, and x leaves its own.
+// The hand jumps back and forth. On the way back the node y leaves one bound and meets the other, and x leaves its own.
 TEST_CASE("rigid stop: steps through springs open and close two stops at once") {
   const double k = 100, x_high = 0.3, y_high = 0.1, y_low = -0.2;
   const auto high = [](double t) { return std::fmod(t, 1) < 0.5; };

@@ -64,7 +64,7 @@ pull  = { type = "force", at = "x", force = { block = "-back" } }
          {"pull.force", [=](double t) { return -K * (settling(u, a, w, 0, 0)(t) - u); }}});
 }
 
-// B x' = -K x(t - T) at a node without mass: the method of steps, and forces that jump with what comes through.
+// B x' = -K x(t - T) at a massless node, against the method of steps. Forces jump when a jump arrives through the delay.
 TEST_CASE("delayed position feedback on a dashpot") {
   constexpr double B = 2.3, K = 1.9, T = 0.7, x0 = 0.4;
   check_at_all_accuracies(netlist({{"B", B}, {"K", K}, {"T", T}, {"x0", x0}}, R"(

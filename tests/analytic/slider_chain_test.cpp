@@ -47,7 +47,7 @@ output = {{ points = 227 }}
                      sign * amplitude, frequency, N, stop);
 }
 
-/// What happens in the rows of a run.
+/// The events in the rows of a run.
 struct Told {
   long sticking = 0, slipping = 0, changes = 0, locked = 0;
 };

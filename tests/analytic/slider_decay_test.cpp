@@ -154,7 +154,7 @@ TEST_CASE("A mass within the reach of the slider does not move at all") {
   }
 }
 
-// Energy: what the spring and the mass had is heat, but for what is left in the spring.
+// Energy: the initial energy of spring and mass is dissipated, except for the energy left in the spring.
 TEST_CASE("Energy of a mass that comes to rest on a slider") {
   const double x0 = 10.63 * reach, rest = 0.63 * reach, way = 5 * (x0 + rest);
   const double start = k * x0 * x0 / 2, left = k * rest * rest / 2;

@@ -101,7 +101,7 @@ std::string beside(const std::string& force, const std::vector<double>& forces, 
   return netlist({{"m", m1}}, text, stop, 301);
 }
 
-/// Of all forces within their bounds with a given sum, those of least norm: all equal, but for bounds below that.
+/// The forces of least norm within their bounds and with a given sum: all are equal, except those at a smaller bound.
 std::vector<double> least_norm(const std::vector<double>& bounds, double sum) {
   double low = 0, high = *std::max_element(bounds.begin(), bounds.end());
   const auto at_level = [&](double level) {

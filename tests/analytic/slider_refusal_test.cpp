@@ -1,5 +1,5 @@
-// A slider without a mass holds what is at most its force. What pushes harder is refused, with the name of what gives
-// way and the time: nothing there says how fast it would move.
+// A slider at a massless node holds loads up to its force. A larger load is refused, with the names of the overloaded elements and the time,
+// because the velocity would be undetermined.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 

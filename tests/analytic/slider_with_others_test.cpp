@@ -43,7 +43,7 @@ std::string steps(double first, double tick, double second) {
                      first, tick, second);
 }
 
-/// What goes on from `start`: as functions of the time since then.
+/// A phase of the motion from `start` on, as functions of the time since then.
 struct Phase {
   double start;
   Response velocity, force;  ///< of the node `end`; of the slider against it
@@ -210,7 +210,7 @@ TEST_CASE("Slider in series with sfm, behind a mass that is pushed") {
     const Response sliding = Response::constant(s * (F - Fc) / m).integral(first.derivative()(slips));
     const double fastest = sliding(lets_go - slips), turns = lets_go + s * fastest * m / Fc;
     REQUIRE_LT(turns, 0.9 * stop);
-    // From there it swings freely: the force goes from Fc to -Fc and back.
+    // From there it oscillates freely: the force varies between Fc and -Fc.
     const Response last = Response().second_order(i, -i, s * Fc / sigma, 0);
     const Trajectory course({{0, first.derivative(), sigma * first},
                          {slips, sliding, Response::constant(s * Fc)},

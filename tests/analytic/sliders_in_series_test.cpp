@@ -1,5 +1,5 @@
-// Sliders in series with nothing between them: the weaker slips. Of equal ones any share of the motion fits the laws;
-// that of least norm gives each the same, and a note says so.
+// Sliders in series with nothing between them: the weaker slips. With equal sliders the laws leave the share of each in the motion open;
+// the solution of least norm gives each the same share, and a note says so.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 

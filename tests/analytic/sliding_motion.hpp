@@ -18,8 +18,7 @@ class SlidingMotion {
   struct Body {
     double m, k, c, Fc, Fs;
   };
-  /// What drives it from `start` on: the force as a function of the time since t, and the (constant) velocity of the
-  /// belt.
+  /// The drive from `start` on: the force as a function of the time since t, and the (constant) velocity of the belt.
   struct Stage {
     double start;
     std::function<Response(double t)> force;

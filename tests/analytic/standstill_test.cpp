@@ -1,6 +1,6 @@
-// Combined friction stands still. Behind a spring, the node of a cfm without a mass may come to w = 0 where the law of
-// w > 0 would make it go back and that of w < 0 forth: then it stays (Filippov's solution), until the force has
-// changed. The reference below is integrated in fine steps, with every change of direction on a step's end.
+// Combined friction at standstill. The massless node between a spring and a cfm may reach w = 0 where the law for w > 0 would move it back
+// and the law for w < 0 forward. Then it stays at rest (Filippov's solution) until the force has changed. The reference below is integrated
+// in fine steps, with every change of direction at the end of a step.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
@@ -172,7 +172,7 @@ class Reference {
   std::vector<Row> table_;
 };
 
-/// Moves the chain to and fro, with four turns within the run; the links `still` are to stand still at each.
+/// Moves the chain back and forth, with four turns within the run. The links `still` must stand still at each turn.
 void check_chain(const Chain& chain, const std::vector<std::size_t>& still) {
   const double speed = 0.263, frequency = 2.3;
   const Reference reference(chain, [=](double t) { return speed * std::sin(2 * std::numbers::pi * frequency * t); });

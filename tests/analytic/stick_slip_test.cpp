@@ -18,8 +18,8 @@ struct Pull {
   double m, k, v, Fc, Fs, stop;
 };
 
-/// With y = the stretch of the spring less Fc/k, a slip is a swing from y = (Fs - Fc)/k, y' = v to where y' is v again,
-/// at y = -(Fs - Fc)/k; the spring then takes 2 (Fs - Fc)/(k v) to be stretched by Fs/k anew.
+/// Let y be the stretch of the spring minus Fc/k. A slip is an oscillation from y = (Fs - Fc)/k, y' = v until y' = v again, at
+/// y = -(Fs - Fc)/k. The following stick takes 2 (Fs - Fc)/(k v), until the stretch is Fs/k again.
 class StickSlip {
  public:
   explicit StickSlip(const Pull& pull) : p_(pull) {
@@ -183,8 +183,8 @@ TEST_CASE("A mass dragged by a belt") {
   }
 }
 
-// It sticks until x = Fc/k, and then swings about that place with the velocity of the belt as its amplitude: once in
-// each swing it is as fast as the belt, and may or may not be said to stick for an instant.
+// The mass sticks until x = Fc/k and then oscillates about that position; the amplitude of its velocity is the velocity of the belt. So it
+// is as fast as the belt once in each period, where an event `stick` may or may not occur.
 TEST_CASE("A mass on a belt comes back to the belt's velocity without sticking") {
   const double belt = 0.0917, omega = std::sqrt(k / m), leaves = Fc / (k * belt);
   const auto position = [&](double t) {

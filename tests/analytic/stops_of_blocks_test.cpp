@@ -67,7 +67,7 @@ TEST_CASE("A stop made of blocks: contact for half a swing") {
         const RunTable rows = simulate(scene(s), accuracy);
         check_against(rows, {"a.position", [&](double t) { return s.position(t); }}, accuracy);
         check_against(rows, {"wall.force", [&](double t) { return std::max(0.0, s.k * (place - s.position(t))); }, s.v * std::sqrt(s.k * s.m)}, accuracy);
-        // Of a velocity that turns within a moment rows see the two sides.
+        // Skip rows next to the contact, in which the velocity reverses almost at once.
         const double guard = accuracy * s.stop;
         for (std::size_t i = 0; i < rows.time().size(); ++i) {
           const double t = rows.time()[i];
@@ -146,7 +146,7 @@ record = ["a.velocity", "k1.force"]
           }
           CAPTURE(name);
           CAPTURE(accuracy);
-          // What the place of the mass is rounded to is a force of its own.
+          // The round-off of the mass's position is a force, too.
           CHECK(worst <= std::max(10 * accuracy, 1e2 * 2.3e-16 * std::abs(place) * k / force) * scale);
         }
       }

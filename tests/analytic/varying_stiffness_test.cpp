@@ -51,7 +51,7 @@ s = { type = "spring", between = ["x", "ground"], rest = 0.2, stiffness = { step
   check_account(toml, {gained, gained, 0});
 }
 
-// What changes the stiffness supplies k' d^2/2, besides the drive.
+// The change of the stiffness supplies the power k' d^2/2, in addition to the drive.
 TEST_CASE("varying parameters: the energy that a rising stiffness supplies") {
   const double V = 0.37, a = 5.3, T = 1.9;
   const auto k = [=](double t) { return 2 + a * t; };

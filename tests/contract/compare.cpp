@@ -12,8 +12,8 @@ namespace rheonet::test {
 namespace {
 
 constexpr double margin = 10;
-/// What is 0 but for rounding (the force of a massless node's balance, of a stop that just touches in a moving frame) is measured by the
-/// largest of its kind.
+/// A record that is 0 except for round-off (the force balance of a massless node, a stop that just touches in a moving frame) is compared
+/// relative to the largest record of its kind.
 constexpr double rounding = 1e-10;
 
 }  // namespace

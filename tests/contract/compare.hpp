@@ -7,7 +7,7 @@
 
 namespace rheonet::test {
 
-/// What a record of one run is to be in another: factor x + offset + drift t.
+/// The expected value of a record in another run: factor x + offset + drift t.
 struct Relation {
   double factor = 1, offset = 0, drift = 0;
 };

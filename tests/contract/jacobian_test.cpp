@@ -32,7 +32,7 @@ std::vector<double> scales(Probe& probe, Domain domain) {
 }
 
 struct Result {
-  double worst = 0;  ///< error over what is allowed
+  double worst = 0;  ///< Largest ratio of error to allowed error.
   long conclusive = 0, tried = 0;
 };
 

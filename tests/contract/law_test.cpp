@@ -1,4 +1,4 @@
-// What a law says of itself, at states that it has really been in: its derivative, and where its power goes.
+// The properties that each law declares, at states of real runs: its derivative and its power balance.
 
 #include <doctest/doctest.h>
 
@@ -19,7 +19,7 @@ constexpr double tolerance = 1e-7;
 
 struct Tally {
   long tried = 0, conclusive = 0;
-  double worst = 0;  ///< largest error relative to what is allowed
+  double worst = 0;  ///< Largest ratio of error to allowed error.
 };
 
 double allowed(double derivative, double scale) { return tolerance * std::max(scale, std::abs(derivative)); }
@@ -116,7 +116,7 @@ void check_power(Probe& probe, const Dae::View& view, Tally& tally) {
       const double supplied = view.f[j] * view.flow[j], rate = view.dp[j];
       // Where the force goes through 0 its rounding is that of larger ones.
       const double scale = std::abs(supplied) + std::abs(dissipated) + 1e-6 * typical.force * std::abs(view.flow[j]);
-      // What feels velocities later may give back what it took up.
+      // A delayed law is not passive: it may return energy.
       const bool passive = laws.batch->delay(i) == 0;
       CHECK_MESSAGE((!passive || dissipated >= -1e-9 * scale), "dissipated " << dissipated << " of " << supplied);
       if (rate == 0) continue;

@@ -39,7 +39,7 @@ std::vector<double> near(const std::vector<double>& limit, const std::vector<dou
   std::vector<double> result = limit;
   for (std::size_t k = 0; k < limit.size(); ++k) {
     if (limit[k] == generic[k] || std::isnan(limit[k])) continue;
-    const double usual = std::isnan(generic[k]) ? 1 : generic[k];  // in place of a signal, or of what need not be given
+    const double usual = std::isnan(generic[k]) ? 1 : generic[k];  // In place of a signal or of an optional parameter.
     result[k] = limit[k] == 0 ? small * usual : usual / small;
   }
   return result;
@@ -60,7 +60,7 @@ bool rigid(const Limit& limit, const std::vector<double>& values) {
   return limit.becomes == "slider" && std::isinf(limit.values(values)[0]);
 }
 
-/// What a rigid link joins to the ground or to a motion has no velocity of its own to start with.
+/// Removes start velocities: a node that a rigid link joins to ground or to a motion cannot have one.
 Scene without_velocities(Scene scene) {
   for (SceneNode& node : scene.nodes) node.velocity = not_given;
   return scene;
@@ -71,7 +71,7 @@ std::vector<std::string> misses_of(const Scene& law, const RunTable& nearby, con
   constexpr double distance = 1e-5;
   std::vector<std::string> misses;
   for (const Record& r : law.records) {
-    // What the element alone has caused is 0 at the limit, and has no scale there.
+    // A record that only the element causes is 0 at the limit, and has no scale there.
     const double scale = std::max(of_limit.scale(r.path), factor(law, r, typical));
     double worst = 0;
     for (std::size_t row = 1; row < nearby.time().size(); ++row) {
@@ -120,11 +120,11 @@ TEST_CASE("contract: at a limit a law is the law of the limit") {
       const RunTable of_limit = simulate(at_limit);
       check_identical(of_limit, simulate(law));
 
-      // That it is the right law: the trajectory of values nearby is near, but for the start, where what the limit does
-      // at once takes a moment.
-      // A law that sticks is not reached smoothly: what is nearly rigid rings.
+      // The limit is the right law: the trajectory for nearby values is close to it, except at the start, where the change that the limit
+      // makes at once takes a moment.
+      // A law that sticks is not approached smoothly: a nearly rigid element rings.
       if (limit.becomes == "slider") continue;
-      // A limit may be approached like a small power of the distance from it: then from much nearer.
+      // The difference may fall like a small power of the distance from the limit; then a much smaller distance is needed.
       constexpr double distances[] = {1e-9, 1e-60};
       ++tried;
       std::vector<std::string> misses;

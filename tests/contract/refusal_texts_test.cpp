@@ -1,5 +1,5 @@
-// What ends a run is told in the words of the netlist: every text names what it is about, and none speaks of how it was
-// computed. (That the names are the right ones, and each text on occasion, is for the tests of what is refused.)
+// Every error text that ends a run uses the words of the netlist: it names an element or node, and does not speak of numerical methods. (The
+// tests of each refusal check that the names are right.)
 #include <doctest/doctest.h>
 
 #include <filesystem>
@@ -13,7 +13,7 @@ namespace rheonet::test {
 
 namespace {
 
-/// What is thrown, from `begin` on: the code up to the closing parenthesis, and the text in its string literals.
+/// A throw expression: its code from `begin` to the closing parenthesis, and the text in its string literals.
 struct Thrown { std::string code, text; };
 
 Thrown thrown_at(const std::string& source, std::size_t begin) {

@@ -169,7 +169,7 @@ class Surroundings {
     }
   }
 
-  /// Those that must be given; of several of which one is to be given, one.
+  /// Adds the required signals, and one of several if exactly one must be given.
   void add_signals(SceneElement& e) {
     const Declaration& d = component_.declaration;
     const auto alternative = [&](const Parameter& p) {

@@ -47,7 +47,7 @@ std::vector<Case> cases(bool moving_base = false, bool velocities = false);
 /// Calls `check` for each case; a scene that is refused fails the test and leaves the others to run.
 void for_each(const std::vector<Case>& cases, const std::function<void(const Case&, const Situation&)>& check);
 
-/// What every contract run asks for.
+/// Accuracy of every contract run.
 inline constexpr double accuracy = 1e-7;
 
 }  // namespace rheonet::test

@@ -117,8 +117,7 @@ TEST_CASE("a reversal at which one stands is not the next one") {
   CHECK_EQ(driven.inputs.next_reversal(0, -1, 0, 0.4999 / frequency), infinity);
 }
 
-// What is remembered of one search must serve the next ones, over instants at which nothing changes and over those at
-// which the signals do.
+// The cached result of a search must be valid for later searches, across instants at which signals change and at which they do not.
 TEST_CASE("the next reversal is the same whatever was asked before") {
   int asked = 0, finite = 0;
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {

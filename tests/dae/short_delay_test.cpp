@@ -19,8 +19,8 @@ namespace rheonet::test {
 
 namespace {
 
-// Delayed elements between masses and motions, and delays of what states, masses and springs tell, beside massless nodes. All
-// laws are linear, and so are the equations: a difference quotient of theirs is exact.
+// Delayed elements between masses and motions, and delayed signals of states, masses and springs, next to massless nodes. All laws and so the
+// equations are linear: their difference quotients are exact.
 const char* const linear_scene = R"([parameters]
 d = "1e-4 s"
 [elements]
@@ -122,8 +122,8 @@ TEST_CASE("delays of every kind, far shorter than a step: they change what happe
   }
 }
 
-// c v = F sin(w t) - K v(t - T) at a node without mass: v = F Im exp(i w t)/(c + K exp(-i w T)) once what there was at the start has
-// died out, as (K/c)^n in n delays. No error test looks at v, and a magnified error would come back in every delay.
+// c v = F sin(w t) - K v(t - T) at a massless node. The steady state is v = F Im exp(i w t)/(c + K exp(-i w T)); the initial transient decays
+// as (K/c)^n in n delays. v is in no error test, and a magnified error would return with every delay.
 TEST_CASE("a velocity without mass that follows from itself a delay ago, with a gain near 1, does not grow") {
   constexpr double w = 6.3, F = 1.7, c = 1.1, stop = 6;
   for (const double gain : {0.3, 0.65, 0.93, -0.9}) {
@@ -160,7 +160,7 @@ record = ["b.velocity"]
   }
 }
 
-// What has come through a delay once and for all does not vanish for a moment at each instant.
+// A constant force that a delay transmits must not vanish for a moment at each event.
 TEST_CASE("a slider under a load that a delay shorter than all steps holds up") {
   for (const double delay : {1e-9, 1e-6, 1e-3, 0.3}) {
     CAPTURE(delay);

@@ -1,4 +1,4 @@
-// What happens within one instant: consistent starts, and steps that go through a network.
+// Consistent initial states, and jumps that propagate through a network within one instant.
 
 #include <doctest/doctest.h>
 

@@ -16,7 +16,7 @@ using namespace rheonet::test;
 
 namespace {
 
-/// What is written beside the element `it` of a rotational scene.
+/// The caption of the element `it` of a rotational scene.
 std::vector<std::string> said(const std::string& it, const std::string& others = "", const std::vector<std::string>& set = {}) {
   const std::string text = "domain = \"rotation\"\n" + others + "[elements]\nit = " + it +
                            "\nk0 = { type = \"spring\", between = [\"a\", \"ground\"], stiffness = 1 }\n[simulate]\nstop = 1\n";
@@ -44,20 +44,20 @@ TEST_CASE("values are said in the units of the file") {
   CHECK(spring("123456.789 N*m/rad") == Lines{"123457 N·m/rad"});
   CHECK(motion("\"12000 rpm\"") == Lines{"12000 rpm"});
   CHECK(motion("\"-150 deg/s\"") == Lines{"−150 deg/s"});
-  // A parameter too, and what is given on the command line.
+  // The same for a parameter, and for a value on the command line.
   const std::string parameters = "[parameters]\nk = \"12 in*ozf/deg\"\nother = \"3 kN*m/rad\"\n";
   CHECK(spring("k", parameters) == Lines{"12 in·ozf/deg"});
   CHECK(spring("other", parameters) == Lines{"3 kN·m/rad"});
   CHECK(spring("other", parameters, {"it.stiffness=7 in*ozf/deg"}) == Lines{"7 in·ozf/deg"});
-  // What follows from others is in the unit of the first of them, or of all.
+  // The value of an expression is shown in a unit of one of the netlist's parameters.
   CHECK(spring("2*k", parameters) == Lines{"24 in·ozf/deg"});
   CHECK(spring("2*k", "[parameters]\nk = \"500 N*m/rad\"\n") == Lines{"1000 N·m/rad"});
   CHECK(spring("2*k", "[parameters]\nk = \"500 N*m/rad\"\nl = \"3 kN*m/rad\"\n") == Lines{"1 kN·m/rad"});
   CHECK(spring("k/1e6", "[parameters]\nk = \"500 N*m/rad\"\n") == Lines{"500 µN·m/rad"});
   CHECK(spring("2.5e3 N*m/rad") == Lines{"2500 N·m/rad"});
-  // Of a plain number nothing is known; a torque is no stiffness, though rad is no dimension.
+  // A plain number has no unit to keep; a torque is not a stiffness, although rad has no dimension.
   CHECK(spring("2500", "[parameters]\nT = \"2500 N*m\"\n") == Lines{"2.5 kN·m/rad"});
-  // Too many digits, or too few, are no help.
+  // Units that would need too many digits are replaced.
   CHECK(spring("3e9 in*ozf/deg") == Lines{"1.214 GN·m/rad"});
   CHECK(spring("5e-4 N*m/rad") == Lines{"500 µN·m/rad"});
 }

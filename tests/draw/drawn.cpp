@@ -29,7 +29,7 @@ constexpr double touch = 0.02;  // px: coordinates this close are one
 struct Piece {
   NodeId node;
   Point from, to;  ///< from.x <= to.x, from.y <= to.y
-  const SignalConnection* wire;
+  const Wire* wire;
 
   bool horizontal() const { return to.y - from.y < touch; }
   bool holds(Point p) const {
@@ -56,7 +56,7 @@ class Groups {
   std::vector<std::size_t> of_;
 };
 
-/// What a symbol covers, a little less than to its edge.
+/// The area of a symbol, slightly shrunk.
 Box covered(const Mark& mark, const Scene& scene) {
   const Reach reach = reach_of((mark.of_support ? support_symbol() : symbol_of(scene, mark.element)));
   const double height = mark.box.bottom - mark.box.top, middle = (mark.box.top + mark.box.bottom) / 2;
@@ -67,7 +67,7 @@ Box covered(const Mark& mark, const Scene& scene) {
 class Inspection {
  public:
   Inspection(const Picture& picture, const Scene& scene) : picture_(picture), scene_(scene) {
-    for (const SignalConnection& wire : picture.wires)
+    for (const Wire& wire : picture.wires)
       for (std::size_t i = 0; i + 1 < wire.points.size(); ++i) {
         const Point a = wire.points[i], b = wire.points[i + 1];
         pieces_.push_back(
@@ -208,7 +208,7 @@ class Inspection {
   };
 
   void signals() {
-    // Of the parts of an element by a law only the signals that come from other blocks are drawn, each once.
+    // For an element with a law of the netlist, only signals from other blocks are drawn, each once.
     const auto of = [&](int block) -> const SceneElement& { return scene_.elements[static_cast<std::size_t>(scene_.blocks[static_cast<std::size_t>(block)].element)]; };
     std::size_t expected = 0;
     std::set<std::pair<int, std::string>> taken;

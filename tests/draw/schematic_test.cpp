@@ -90,7 +90,7 @@ e = { type = "sum", in = [)" + in + "] }\n");
     const std::vector<double> distances = distances_of_minus(picture, *minus);
     REQUIRE(distances.size() >= 2);
     CHECK(distances[0] < 0.75 * distances[1]);
-    // The line that ends there comes from the text of what is taken in negative.
+    // The line that ends there comes from the text of the input with a negative sign.
     const auto line = std::find_if(picture.signals.begin(), picture.signals.end(), [&](const SignalLine& l) {
       return std::abs(std::abs(minus->at.y - 3.5 - l.points.back().y) - distances[0]) < 1e-9;
     });
@@ -292,7 +292,7 @@ TEST_CASE("beyond 45 elements what repeats itself is drawn twice, and its last t
   const Scene row = scene_from(chain(40));
   const Picture abridged = drawn(row);
   CHECK(faults_of(abridged, row) == "");
-  // The mass at which what is left out begins is drawn, and so is what is behind it.
+  // The mass at the begin of the omitted part is drawn, and so are the elements after that part.
   for (const char* kept : {"chain.0.k|", "chain.0.m|", "chain.1.k|", "chain.2.m|", "chain.39.m|", "chain.39.k|"})
     CHECK_MESSAGE(contains(names(abridged, row), kept), kept);
   CHECK(abridged.marks.size() == 7);

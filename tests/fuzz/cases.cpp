@@ -114,7 +114,7 @@ FuzzCase FuzzCases::make(std::uint64_t seed, long number, bool mild) const {
   if (mild) {
     if (kind < 3) return {print_netlist(generated_scene(random)), from.folder};
     TomlValue tree = from.tree;
-    // What a sound scene claims is seldom true of another.
+    // The claims of a valid scene are seldom true for a changed scene.
     if (random.below(4) > 0) std::erase_if(tree.entries, [](const TomlEntry& e) { return e.key == "expect" || e.key == "exact"; });
     for (int changes = 1 + random.below(3); changes > 0; --changes) change_mildly(tree, random);
     return {print_netlist(tree), from.folder};

@@ -1,4 +1,4 @@
-// Reads and runs netlists that are wrong in all ways; see README.md.
+// Reads and runs netlists with mistakes of all kinds; see README.md.
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/mman.h>
@@ -35,19 +35,19 @@ struct Options {
   TrialLimits limits;
 };
 
-/// Counters that all processes of a fuzzing share.
+/// Counters shared by all processes of a fuzzing run.
 struct Counts {
   std::atomic<long> reads, runs, faults, interrupted, status[3];
 };
 
-/// In memory that processes share.
+/// An object in shared memory.
 template <class T>
 T* shared() {
   void* const memory = ::mmap(nullptr, sizeof(T), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
   return memory == MAP_FAILED ? nullptr : new (memory) T{};
 }
 
-/// A folder that is gone at the end.
+/// A temporary folder, removed by the destructor.
 struct Scratch {
   fs::path path = fs::temp_directory_path() / fmt::format("rheonet-fuzz-{}", ::getpid());
   Scratch() { fs::create_directory(path); }
@@ -73,7 +73,7 @@ class Fuzzing {
     });
   }
 
-  /// Numbers first, first + step, ... below the end, in a process that goes on with another where one crashes.
+  /// Reads the numbers first, first + step, ... below the end, in a process that is replaced by a new one after a crash.
   void read_all(long first, long step) {
     for (long next = first; next < options_.first + options_.reads;) {
       at_->store(next);
@@ -159,7 +159,7 @@ class Fuzzing {
     return words_of(status);
   }
 
-  /// The command, and the time that it has, go with the number: most are short, some less so.
+  /// Runs the program. The number determines the command and its time limit: most are short, some longer.
   Trial try_run(long number, const std::string& text, const fs::path& folder) {
     static const std::vector<std::string> commands[] = {{"run"}, {"run"}, {"run"}, {"run"}, {"run"}, {"run", "--certify"}, {"check"}, {"explain"}, {"draw"}, {"effects", "--runs", "1"}};
     std::vector<std::string> words = commands[number % 10];
@@ -195,7 +195,7 @@ class Fuzzing {
   Counts& counts_;
   const fs::path netlists_;
   FuzzCases cases_;
-  std::atomic<long>* at_;  ///< the number that is being read
+  std::atomic<long>* at_;  ///< The number being read.
   Scratch scratch_;
 };
 

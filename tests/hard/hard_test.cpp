@@ -41,7 +41,7 @@ Scene scene_of(const fs::path& file, const std::vector<std::string>& overrides =
   return *read.scene;
 }
 
-/// What the head of a scene says after `# KEY:`; "" if nothing.
+/// The text after `# KEY:` in the head of a scene; "" if there is none.
 std::string said(const fs::path& file, const std::string& key) {
   std::istringstream lines(text_of(file));
   for (std::string line; std::getline(lines, line) && line.starts_with("#");) {

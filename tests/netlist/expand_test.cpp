@@ -137,7 +137,8 @@ series = [
 }
 
 TEST_CASE("the force of an assembly") {
-  // Of a parallel group the sum; what is applied counts negative: it is not a force that must be applied.
+  // The force of a parallel group is the sum over its members. An applied force counts negative: it reduces the force that must be applied
+  // to the group.
   const Scene scene = scene_of(R"~(
 [elements.g]
 between = ["a", "b"]

@@ -65,7 +65,7 @@ TEST_CASE("record expressions: quantities of records") {
   const Scene scene = scene_of(recording("\"x.acceleration\", \"k.power\", \"k.dissipated\", \"g.energy\""));
   const char* const units[] = {"m/s^2", "W", "W", "J"};
   for (std::size_t k = 0; k < 4; ++k) CHECK(unit_text(scene, scene.records[k]) == units[k]);
-  // Of an assembly: the sum over its elements.
+  // The record of an assembly is the sum over its elements.
   const SceneExpression& sum = scene.expressions.front();
   REQUIRE(sum.operands.size() == 2);
   const std::array<double, 2> values{3, 4};

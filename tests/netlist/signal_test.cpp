@@ -184,7 +184,7 @@ TEST_CASE("seen from 1e8 s a signal has all its digits, whenever it began") {
       }
     }
   }
-  // What begins later keeps its distance from the start.
+  // A later begin keeps its distance from the start.
   CHECK_EQ(Signal(Signal::Step{2.3, late + 0.75, 0.1}).seen_from(late).piece(0).end, 0.75);
   CHECK_EQ(Signal(Signal::Table{{0.25, 0.5}, {1, 2}, late, 0}).seen_from(late).piece(0.3).end, 0.5);
 }
@@ -361,7 +361,7 @@ TEST_CASE("a sine is as exact late as early, with and without a start") {
   for (const double time : {0.0, 0.1, -123.456}) {
     const Signal sine(Signal::Sine{1.7, 13.7, 0.3, time, 0});
     for (const double t : {0.9, 1234.56, 1.23456e6, 1.23456e9}) {
-      // Whole turns are taken off without rounding; what is left of it is that of `tau` with its 64 bits.
+      // Whole periods are subtracted without round-off; the remaining round-off is that of `tau` with its 64 bits.
       const long double tau = static_cast<long double>(t) - time;
       const long double turns = std::fma(static_cast<long double>(13.7), tau, -std::floor(13.7L * tau));
       const auto expected = static_cast<double>(1.7L * std::sin(turn * turns + 0.3));

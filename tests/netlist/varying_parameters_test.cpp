@@ -1,4 +1,4 @@
-// Parameters that may be signals, coefficients, and parameters that exclude each other: what is accepted, and the messages of misuse.
+// Parameters that may be signals, coefficients, and parameters that exclude each other: valid uses, and the messages on misuse.
 #include <doctest/doctest.h>
 
 #include <string>

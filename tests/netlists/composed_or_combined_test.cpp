@@ -24,10 +24,10 @@ struct Project : Folder {
 };
 
 struct Row {
-  double value, largest, relative;  ///< of what is varied, and how far apart they then are
+  double value, largest, relative;  ///< Of the varied parameter, and the differences of the scenes.
 };
 
-/// What `rheonet compare` writes with these words after it, where it varies something of the given unit.
+/// The table of `rheonet compare` with these arguments, which vary a parameter of the given unit.
 std::vector<Row> compared(const std::string& words, const std::string& unit) {
   const Project project;
   project.shell(enter + "rheonet compare " + words + " -o table.csv", 0);
@@ -46,8 +46,8 @@ std::vector<Row> compared(const std::string& words, const std::string& unit) {
 
 }  // namespace
 
-// A command whose line ends in `# exit status 1` ends so, any other with 0. A text block, and every figure such
-// as 1.39e-01 in what follows, is part of what the commands of the last block have printed.
+// A command whose line ends in `# exit status 1` must end with this status, any other with 0. Each text block, and each figure such as
+// 1.39e-01 in the following text, must be in the output of the commands in the last block.
 TEST_CASE("every statement of composed-or-combined.md is backed by its command") {
   const Project project;
   const std::regex figure(R"(\d\.\d\de[-+]\d\d)");

@@ -45,7 +45,7 @@ const Model models[] = {
      "dashpot1", "dashpot2"},
 };
 
-// Two copies in one run: one step size, so what is left is the rounding of the linear algebra, over some hundred steps.
+// Two copies in one run have the same steps, so that they differ only by the round-off of the linear algebra over some hundred steps.
 void check_same(const RunTable& rows, const std::string& a, const std::string& b) {
   const double scale = rows.scale(b);
   CHECK_GT(scale, 1e-3);

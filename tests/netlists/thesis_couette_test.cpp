@@ -1,5 +1,5 @@
-// What the scenes of Couette flow in netlists/thesis claim. Their wiring is tested against closed forms with generic
-// values in tests/analytic/couette_test.cpp; here it is the viscometer.
+// The claims of the scenes of Couette flow in netlists/thesis, with the values of the viscometer. tests/analytic/couette_test.cpp tests the
+// wiring against closed forms with generic values.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
-// What each scene of netlists/thesis/laws claims, in numbers. A test is called as its scene: netlists/thesis/README.md
-// is made from that.
+// The claims of each scene of netlists/thesis/laws, in numbers. A test has the name of its scene: netlists/thesis/README.md is generated from
+// these names.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 

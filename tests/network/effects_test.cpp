@@ -16,7 +16,7 @@ using namespace rheonet::test;
 
 namespace {
 
-/// A mass on a spring, dragged through `friction` by a wall that goes to and fro; the friction as given.
+/// A mass on a spring, dragged by an oscillating wall through the given friction.
 std::string dragged(const std::string& friction, const std::string& table = "") {
   return "[elements]\nwall = { type = \"motion\", at = \"wall\", velocity = { sine = \"0.3 m/s\", frequency = \"1.3 Hz\" } }\n"
          "block = { type = \"mass\", at = \"block\", mass = \"0.7 kg\" }\n"
@@ -68,7 +68,7 @@ TEST_CASE("without all that makes its force an element has none") {
 }
 
 TEST_CASE("without inertia a mass is not there") {
-  // The spring takes what the vfm passes on; the block goes where they balance.
+  // The spring takes the force that the vfm transmits; the block moves to where they balance.
   const RunTable found = simulate(dragged("type = \"dashpot\", damping = 5", without("\"inertia\"")));
   for (std::size_t k = 0; k < found.time().size(); ++k) CHECK(std::abs(found["brake.force"][k] - found["k1.force"][k]) < 1e-6);
   CHECK(found.scale("k1.force") > 0.5);

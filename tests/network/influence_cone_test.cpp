@@ -71,7 +71,7 @@ TEST_CASE("a row that is short enough, or long enough a run, is simulated as a w
 TEST_CASE("only masses at rest between linear springs without force and dashpots may lie beyond") {
   const std::size_t plain = beyond(row(400));
   CHECK_GT(plain, 300);
-  // Somewhere far out something begins, or may begin: what is around it stays.
+  // An element far out starts to act, or may start to: its surroundings are kept.
   for (const char* more : {
            "far = { type = \"force\", at = \"x300\", force = { step = \"1 uN\", time = \"19 ms\" } }",
            "far = { type = \"motion\", at = \"x300\", velocity = 0 }",

@@ -50,7 +50,7 @@ struct Plain {
   }
 };
 
-/// What an integrator does with a bundle: goes up to each kink that is an event, and passes it.
+/// Uses a bundle as an integrator does: moves to each kink that is an event, and passes it.
 void move(Iwan& bundle, double& p, double to, double& heat) {
   const int direction = to < p ? -1 : 1;
   if (direction != bundle.direction()) {

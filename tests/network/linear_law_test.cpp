@@ -10,7 +10,7 @@ using namespace rheonet::test;
 
 namespace {
 
-/// Of an element so written, `between = ["x", "ground"]` at a mass.
+/// A scene with a mass and an element of this type and these parameters, `between = ["x", "ground"]`.
 Scene scene_with(const std::string& type_and_parameters) {
   return scene_of(fmt::format(R"([elements]
 m = {{ type = "mass", at = "x", mass = "0.7 kg" }}

@@ -1,4 +1,4 @@
-// At a limit a law has fewer parameters: what a netlist gives of the others is told to be left out, not dropped in silence.
+// At a limit a law has fewer parameters. If a netlist gives one of the others, a note says that it is ignored.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace rheonet::test {
 
 namespace {
 
-/// The notes that speak of what is left out, of one element between a mass and the ground.
+/// The notes on ignored parameters, for one element between a mass and ground.
 std::vector<std::string> told(const std::string& element, const std::string& more = "") {
   const Scene scene = scene_of("[elements]\nm = { type = \"mass\", at = \"a\", mass = 1 }\n" + element + "\n[simulate]\nstop = 1\n" + more);
   std::vector<std::string> notes = build_network(scene).notes;
@@ -29,7 +29,7 @@ using Notes = std::vector<std::string>;
 
 TEST_CASE("what a limit makes meaningless, and the netlist gives, is told; what is not given is not") {
   const struct {
-    const char *values, *given, *limit;  ///< nothing is told where nothing is `given`
+    const char *values, *given, *limit;  ///< No note if `given` is empty.
   } cases[] = {
       {R"(type = "spring", stiffness = "inf", f0 = 3)", "`e.f0`", "rigid link (stiffness = inf)"},
       {R"(type = "spring", stiffness = 1e9, f0 = 3)", "", ""},

@@ -134,7 +134,7 @@ TEST_CASE("elements with a parameter of 0 become nothing, and a note says which"
     }
     CHECK_MESSAGE(noted, name);
   }
-  // Such an element still has ends, and a force of 0.
+  // The element still has ends, and a force of 0.
   const RunTable run = simulate(scene);
   CHECK_EQ(run.scale("k0.force"), 0);
   CHECK_EQ(run["k0.displacement"].back(), doctest::Approx(0.3 * 0.37).epsilon(1e-12));

@@ -38,7 +38,7 @@ TEST_CASE("what is more than a pair is left alone") {
   CHECK_EQ(pairs_with([](SceneBuilder& b) { b.motion("d", "mid", "velocity", Signal(Signal::Constant{0.1})); }), 0);
   CHECK_EQ(pairs_with([](SceneBuilder& b) { b.between("c", "dashpot", "mid", "ground", {{"damping", 0.1}}); }), 0);
   CHECK_EQ(pairs_with([](SceneBuilder& b) { b.between("k2", "spring", "mid", "x", {{"stiffness", 0.1}}); }), 0);
-  // Even what has no force has a displacement and a velocity there.
+  // An element without a force still has a displacement and a velocity there.
   CHECK_EQ(pairs_with([](SceneBuilder& b) { b.between("k2", "spring", "mid", "x", {{"stiffness", 0}}); }), 0);
   CHECK_EQ(pairs_with([](SceneBuilder& b) { b.start("mid", not_given, 0); }), 0);
   CHECK_EQ(pairs_with([](SceneBuilder&) {}, 1.3, 1.4), 0);

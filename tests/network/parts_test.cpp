@@ -41,7 +41,7 @@ k2 = { type = "spring", between = ["b", "ground"], stiffness = 1 }
   const std::string gain = "g = { type = \"gain\", in = \"a.velocity\", gain = \"2 N*s/m\" }\n";
   CHECK_EQ(find_parts(scene_of(two + gain + stop)).count, 2);  // it looks at one of them
   CHECK_EQ(find_parts(scene_of(two + gain + "f = { type = \"force\", at = \"b\", force = { block = \"g\" } }\n" + stop)).count, 1);
-  // What moves by a block is no given motion.
+  // A motion driven by a block is not prescribed.
   const std::string drive = "v = { type = \"lag\", in = \"k1.displacement\", time_constant = 1, gain = \"1 1/s\" }\n"
                             "d = { type = \"motion\", at = \"c\", velocity = { block = \"v\" } }\n"
                             "k3 = { type = \"spring\", between = [\"c\", \"b\"], stiffness = 1 }\n";

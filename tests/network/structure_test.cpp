@@ -60,7 +60,7 @@ struct Analysed {
   }
 };
 
-/// What a scene is refused with.
+/// The error for a refused scene.
 std::string refusal(const SceneBuilder& builder) {
   try {
     const Analysed analysed(builder);

@@ -13,7 +13,7 @@ using rheonet::test::Folder;
 
 namespace {
 
-/// What is wrong with a file of this text; its name is `r.csv`, whatever folder it is in.
+/// The error for a file with this text. Its name in the error is `r.csv`, independent of its folder.
 std::string mistake(const std::string& text) {
   const Folder folder;
   const std::string path = folder.write("r.csv", text).string();

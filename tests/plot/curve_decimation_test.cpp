@@ -120,7 +120,7 @@ TEST_CASE("a band that is crossed again and again is inked once, but for its ext
   const Stroke points = all(drawing.strokes);
   CHECK(points.size() < 10'000);
   check_extremes(noise, points);
-  // No pixel of the band is left blank: in every column the ink reaches from one end of what was there to the other.
+  // No pixel of the band is left blank: in every column the drawn curve reaches from the minimum to the maximum of the data.
   std::vector<std::pair<double, double>> wanted(400, {1e9, -1e9}), found = wanted;
   const auto reach = [](std::vector<std::pair<double, double>>& columns, Point p) {
     auto& [low, high] = columns[std::min<std::size_t>(static_cast<std::size_t>(p.x), 399)];

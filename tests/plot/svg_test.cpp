@@ -229,7 +229,7 @@ TEST_CASE("no two numbers of an axis touch each other, and none leaves the figur
         const std::string text = svg(figure);
         std::vector<Number> across = numbers(text, "middle");
         REQUIRE(!across.empty());
-        across.pop_back();  // what is drawn there
+        across.pop_back();  // The label of the axis.
         REQUIRE(!across.empty());
         for (std::size_t k = 0; k < across.size(); ++k) {
           const double half = width_of(across[k].text, 12) / 2;

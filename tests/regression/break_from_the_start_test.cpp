@@ -1,5 +1,5 @@
-// What comes through a delay from the start of a run came a rounding too early: the steps before it went to nothing, and the
-// velocity remembered there belonged to neither side. Times that differ from 0 by the rounding of larger ones are 0.
+// The break that a delay transmits from the start of a run came too early by a round-off error. The step size before it went to 0, and the
+// stored velocity belonged to neither side. Now times that differ from 0 by the round-off of larger times count as 0.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 

@@ -36,14 +36,14 @@ record = ["w.velocity"]
   }
 }
 
-// Each ended in "switches over and over" or "cannot be balanced": bounds of 0 that round-off seemed to exceed, trials of the forces of gears that
-// ended with fewer digits than the dead bands of guards, and brakes that a gear holds at rest at their bound, but which counted as slipping.
+// Each ended in "switches over and over" or "cannot be balanced", for one of three reasons. Round-off seemed to exceed bounds of 0. Iterations
+// of gear forces were less accurate than the dead bands of guards. Brakes that a gear holds at rest at their bound counted as slipping.
 TEST_CASE("breaking away together: scenes that round-off decided") {
-  struct Held { std::string type, at, values; };  ///< between this shaft and ground
+  struct Held { std::string type, at, values; };  ///< Element between shaft `at` and ground.
   struct Shafts {
-    double a, b, c;         ///< inertias [kg m^2]
-    std::string first, second;  ///< the gear from a to b, and what joins b to c
-    double torque, frequency;   ///< on a [N m], [Hz]
+    double a, b, c;         ///< Inertias [kg m^2].
+    std::string first, second;  ///< The gear from a to b, and the element from b to c.
+    double torque, frequency;   ///< Torque on a [N m] and its frequency [Hz].
     std::vector<Held> held;
   };
   const std::vector<Shafts> scenes{

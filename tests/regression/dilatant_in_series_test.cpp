@@ -58,9 +58,8 @@ output = {{ points = 62 }}
         R"({ type = "slider", between = ["ground", "end"], coulomb = 1.4797 })", sides(4 * d * g, g, 0.25));
 }
 
-// Where a force has just come to the bound of a slider, what is left for a dilatant dashpot moves its node by the root
-// of it. Tolerances that held its rounding at rest for that at present left its position off by some parts in a
-// million.
+// When a force has just reached the bound of a slider, the small remaining force moves the node of a dilatant dashpot with a velocity that is
+// a root of it. The tolerances used the round-off at rest in place of the present one, so that the position had an error of 1e-6 or more.
 TEST_CASE("the position of a node behind a dilatant dashpot, beside a slider, is as close as it is asked for") {
   constexpr double F = 0.95207, frequency = 2.674, B1 = 4.2135, B2 = 1.8991, Fc = 0.93825;
   constexpr double omega = 2 * std::numbers::pi * frequency;
@@ -96,7 +95,7 @@ e2 = { type = "dashpot", between = ["n1", "ground"], damping = "B2", flow_index 
 e3 = { type = "slider", between = ["end", "ground"], coulomb = "Fc" }
 )",
                                          1.0353, 61);
-  // Closer than this, what is left to rounding where the dashpots come to rest shows: 8e-12 m.
+  // At tighter accuracies the round-off where the dashpots come to rest would show: 8e-12 m.
   for (const double accuracy : {1e-3, 1e-6, 1e-8}) {
     const test::RunTable run = test::simulate(toml, accuracy);
     test::check_against(run, {"n1.position", position}, accuracy);

@@ -9,8 +9,8 @@
 
 using namespace rheonet::test;
 
-// Where a force comes within rounding of what friction can take its deflection is known to a small part of its digits only:
-// steps grew so short that a run would have taken hours. The exponent 1 gives f = Fc (1 - exp(-sigma x/Fc)).
+// A force within round-off of the Coulomb force determines the deflection to only a few digits. Steps became so short that a run would have
+// taken hours. The exponent 1 gives f = Fc (1 - exp(-sigma x/Fc)).
 TEST_CASE("a force that comes close to all that friction can take is followed as far as it is known") {
   constexpr double sigma = 137, Fc = 0.53, frequency = 1.3, epsilon = 2.2e-16;
   for (const double missing : {1e-2, 2e-7, 2e-8, 2e-10}) {
@@ -42,8 +42,8 @@ record = ["a.position", "friction.force"]
   }
 }
 
-// Friction that has slid far has a deflection of many of its presliding lengths, whose rounding is felt when it turns: here by
-// what is in series with it.
+// Friction that has slid far has a deflection of many presliding lengths. At a reversal the round-off of this deflection acts on the elements
+// in series.
 TEST_CASE("friction that has slid far turns in series with others without being followed into its rounding") {
   const auto scene = [](double accuracy) {
     return simulate(R"([elements]

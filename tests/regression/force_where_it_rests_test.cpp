@@ -9,7 +9,7 @@
 
 using namespace rheonet;
 
-// The force of a slider that has come to rest is what is left of much larger ones: it was as wrong as they were allowed to be.
+// The force of a slider that has come to rest is a small difference of much larger forces. Its error was as large as their tolerance.
 TEST_CASE("where friction ends a swing of many times its force that force is as accurate as the swing") {
   constexpr double k = 210, Fc = 0.37, at_rest = 0.55;
   constexpr int half_swings = 60;
@@ -35,7 +35,7 @@ friction = { type = "slider", between = ["block", "ground"], coulomb = 0.37 }
   }
 }
 
-// What comes from far meets a stop that makes a large force of a small part of that way.
+// A mass that comes from far away meets a stop, in which a small fraction of that distance is a large force.
 TEST_CASE("a stop that blocks make is followed as its force asks for") {
   constexpr double v = 1.9, k = 2.3e6, m = 0.23, far = 5.1;
   const double w = std::sqrt(k / m), touch = far / v, gone = touch + std::numbers::pi / w;

@@ -8,8 +8,8 @@
 
 using namespace rheonet;
 
-// The force of a dashpot that takes a small mass along came from the difference of two velocities that are all but equal: of
-// rounding, and of what an iteration leaves of each.
+// The force of a dashpot that drags a small mass was computed from the difference of two nearly equal velocities: from their round-off and
+// iteration errors.
 TEST_CASE("a dashpot that takes along hardly any mass knows its force") {
   constexpr double F = 3.1, m = 0.7, c = 0.9, length = 5;
   for (const double light : {4e-5, 4e-7, 1e-12}) {
@@ -31,8 +31,8 @@ TEST_CASE("a dashpot that takes along hardly any mass knows its force") {
   }
 }
 
-// Where nothing moves at the start but what is driven, no rate of change of a velocity was found, and it was foreseen that one of
-// 4e7 m/s was to come: the first steps were to the accuracy of that.
+// If only driven nodes move at the start, no rate of change of a velocity was found. A velocity of 4e7 m/s was foreseen, and the tolerances
+// of the first steps were relative to it.
 TEST_CASE("a mass between a spring and a dashpot that is hardly any begins as none would") {
   constexpr double V = 0.7, c = 1.3, k = 2.9;
   for (const double mass : {1e-15, 1e-9, 1e-30}) {

@@ -11,7 +11,7 @@ using namespace rheonet;
 
 namespace {
 
-/// What `frame` becomes in the netlist: the ground itself, or a node that is moved at velocity 0.
+/// Replaces `frame` in the netlist by ground, or by a node with the prescribed velocity 0.
 std::string on(const std::string& frame, std::string elements) {
   for (std::size_t k; (k = elements.find("FRAME")) != std::string::npos;) elements.replace(k, 5, frame);
   return frame == "ground" ? elements : elements + "still = { type = \"motion\", at = \"" + frame + "\", velocity = 0 }\n";
@@ -19,8 +19,8 @@ std::string on(const std::string& frame, std::string elements) {
 
 }  // namespace
 
-// Two sliders at their bounds at the same node, one to the ground and one to what stands still: when the load fell the one was
-// let go towards the bound at the other side, which the other had to hold.
+// Two sliders at their bounds at the same node, one to ground and one to another node at rest. When the load fell, one of them was released
+// to its opposite bound, and the other had to hold this force too.
 TEST_CASE("sliders to different nodes at rest hold a node as sliders to one of them do") {
   for (const char* frame : {"ground", "n1"}) {
     for (const double accuracy : test::accuracies) {

@@ -8,8 +8,8 @@
 
 using namespace rheonet;
 
-// A force that sets in smoothly, late: what comes of it in the first moments, from which the first scales are foreseen, was
-// so little that no step which is longer than the rounding of that time could resolve it.
+// A force that starts smoothly and late. The first scales are estimated from the motion in the first moments, which was so small that no step
+// longer than the round-off of the time could resolve it.
 TEST_CASE("a force that sets in late moves masses on a pseudoplastic dashpot as it would have at once") {
   constexpr double late = 0.272, stop = 1.6;
   const auto netlist = [&](double begin) {

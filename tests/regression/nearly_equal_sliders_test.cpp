@@ -25,8 +25,8 @@ stop = 1
 
 }  // namespace
 
-// What decides among equals weighed more than the difference did; and what is off in a balance was held against what is
-// left of it, not against the forces in it, so that sliders that differ by one digit were an overload.
+// The regularisation that decides between equal sliders outweighed their difference. And the error of a balance was compared with the net
+// force in place of the forces in it, so that sliders that differ in the last digit were reported as an overload.
 TEST_CASE("sliders in series that differ by little") {
   for (const double more : {1e-3, 1e-6, 1e-9, 1e-10}) {
     CAPTURE(more);

@@ -34,8 +34,8 @@ void check_alike(const std::string& elements, const std::string& nodes_of_moving
 
 }  // namespace
 
-// What the rounding of two large velocities left of their difference fired events of motions too slow for the look at what
-// begins to move, which found rest: half a million of them.
+// The round-off in the difference of two large velocities fired events. The mode selection could not resolve motions as slow as these and
+// found rest, so that a run had half a million events.
 TEST_CASE("Friction between nodes without mass on a moving base starts once") {
   check_alike(R"(e0 = { type = "sfm", between = ["n0", "n1"], stiffness = 5.5224, coulomb = 0.2577, exponent = 1 }
 e1 = { type = "cfm", between = ["n1", "n2"], stiffness = 62.4418, damping = 2.0584, coulomb = 0.8741, exponent = 0.5 }
@@ -47,8 +47,8 @@ m0 = { type = "mass", at = "n0", mass = 0.2 }
 )", "[nodes]\nn0 = { velocity = 1.0 }\n", 1.0, 1e-6);
 }
 
-// Nothing but a rigid link could stand where both directions have one slope; that took the force of the dashpot beside it for
-// one that is told by no velocity.
+// Only a rigid link was allowed to stand still where both directions have the same slope. So the force of the dashpot in parallel was treated
+// as a force that does not depend on a velocity.
 TEST_CASE("Friction beside a pseudoplastic dashpot on a moving base begins to move") {
   check_alike(R"(drive = { type = "force", at = "end", force = { sine = -1.1381, frequency = 1.9403 } }
 e1 = { type = "cfm", between = ["end", "n1"], stiffness = 24.808, damping = 1.6466, coulomb = 0.84364, exponent = 1.5 }

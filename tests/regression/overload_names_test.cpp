@@ -17,7 +17,7 @@ e2 = { type = "spring", between = ["n1", "ground"], stiffness = 40.4 }
 [simulate]
 stop = 1
 )";
-  // Of 4.28 N/s, e5 and e10 hold 0.279 N and 1.46 N: less than what leads to n3 alone.
+  // The load grows at 4.28 N/s. The minimum cut is e5 and e10, with 0.279 N and 1.46 N: less than all elements at n3.
   const std::string meshed = R"([elements]
 e1={type="slider",between=["n0","ground"],coulomb=0.149}
 e2={type="spring",between=["n0","ground"],stiffness=3.72}
@@ -42,7 +42,7 @@ s3 = { type = "slider", between = ["x", "ground"], coulomb = 1.2 }
 [simulate]
 stop = 2
 )";
-  // What is left of steps lets the stronger slider slip first, at one of these accuracies.
+  // At one of these accuracies an integration error lets the stronger slider slip first.
   const std::string wild = R"([elements]
 e1 = { type = "slider", between = ["n0", "ground"], coulomb = 1.71 }
 e2 = { type = "cfm", between = ["n1", "n0"], stiffness = 22.1, coulomb = 0.253, damping = 1.5, exponent = 2 }

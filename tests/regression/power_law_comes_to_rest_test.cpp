@@ -7,7 +7,7 @@
 
 namespace rheonet::test {
 
-// The velocity of a dilatant dashpot near rest is a root of its force: the rounding of the force kept it going to and fro.
+// The velocity of a dilatant dashpot near rest is a root of its force. The round-off of the force kept it moving back and forth.
 TEST_CASE("a spring relaxes through a dilatant dashpot, and comes to rest in a finite time") {
   constexpr double k = 1.3, B = 0.9, dx = 0.8;
   for (const double n : {1.5, 1.75, 2.0, 3.0, 5.0}) {
@@ -30,8 +30,8 @@ TEST_CASE("a spring relaxes through a dilatant dashpot, and comes to rest in a f
   }
 }
 
-// Where a law n < 1 makes the velocity go like a power of time, an event was looked for on a polynomial: the reversal of
-// what stands beside it came too early, with a force that jumped there.
+// With a flow index n < 1 the velocity is a power of time near a reversal, but events were located on a polynomial. So the reversal of the cfm
+// in parallel came too early, and its force jumped.
 TEST_CASE("a cfm beside a pseudoplastic dashpot turns where the velocity is 0, and its force goes on") {
   const char* const scene = R"([elements]
 f = { type = "force", at = "a", force = { sine = "1.5 N", frequency = "1 Hz" } }

@@ -8,8 +8,8 @@
 
 using namespace rheonet;
 
-// Near rest the force of a power law was made linear, but not its inverse, by which it is solved for at a massless
-// node: set in motion from rest, two in series ended the run ("changes faster than double precision can follow").
+// Near rest the force of a power law was linearised, but not its inverse, which is solved at a massless node. Two dashpots in series, set in
+// motion from rest, ended the run ("changes faster than double precision can follow").
 TEST_CASE("power-law dashpots in series, set in motion from rest") {
   constexpr double accuracy = 1e-6;
   for (const double n : {0.9, 0.5, 0.3}) {

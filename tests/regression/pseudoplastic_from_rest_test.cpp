@@ -6,8 +6,8 @@
 
 using namespace rheonet;
 
-// At rest a pseudoplastic dashpot has an infinite slope. Beside what creeps the search for what begins to move then
-// could not tell its forces from rounding ("it cannot be decided which sliders begin to slip", without any slider).
+// At rest a pseudoplastic dashpot has an infinite slope. Next to a creeping element the mode selection could not distinguish its forces from
+// round-off ("it cannot be decided which sliders begin to slip", without any slider).
 TEST_CASE("a spring, a pseudoplastic dashpot and a vfm in series, from rest") {
   constexpr double v = -0.5003, frequency = 3.033, k1 = 22.83, B2 = 0.6591, k3 = 9.821, B3 = 1.051;
   // One force f: v = f'/k1 + (f/B2)^2 sgn f + f'/k3 + f/B3. Runge and Kutta's method, between the corners of v.

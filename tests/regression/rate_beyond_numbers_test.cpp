@@ -4,8 +4,8 @@
 
 #include "tests/support/simulate.hpp"
 
-// A rate that overflows was told as a balance of forces that cannot be found; and as elimination makes all rates so
-// that are solved with it, the first unknown was blamed in place of the one whose own equation leads there.
+// A rate that overflows was reported as a balance of forces that cannot be found. Elimination spreads the overflow to all rates of the same
+// system, and the error named the first unknown, not the unknown whose equation causes it.
 TEST_CASE("a rate beyond the range of double precision is told, with the node whose rate it is") {
   const std::string told = " changes at a rate beyond the range of double precision";
   const std::string end = "\n[simulate]\nstop = 1\naccuracy = 1e-6\n";

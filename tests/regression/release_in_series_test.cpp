@@ -6,8 +6,8 @@
 
 using namespace rheonet;
 
-// A cfm with exponent 0 that had just left its bound had slope 0 at the very point where it left: its ends were taken to
-// move freely there, the margin of its events came out as large as that velocity, and the next reversal was missed.
+// A cfm with exponent 0 had slope 0 at the point where it left its bound. So its ends seemed to move freely there, the margin of its events was
+// as large as that velocity, and the next reversal was missed.
 TEST_CASE("a cfm between a spring and an sfm leaves its bound, turns, and yields the other way") {
   const char* const scene = R"([elements]
 drive = { type = "motion", at = "end", velocity = { square = 0.672, frequency = 1.6125 } }

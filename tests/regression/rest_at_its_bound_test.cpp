@@ -44,9 +44,9 @@ class Spring {
 
 }  // namespace
 
-// A node comes to rest smoothly while combined friction is at its bound, with a slider beside it. The friction went on as if
-// it slid, and left its bound as late as rounding told it to. It rests: it relaxes faster than the spring gives way, so that
-// the slider stays at its full force, and the friction has what is left of the spring's.
+// A node comes to rest smoothly while combined friction is at its bound, in parallel with a slider. The friction continued as if it slid, and
+// left its bound at a time that depended on round-off. In fact it is at rest: it relaxes faster than the force of the spring falls, so that
+// the slider stays at its full force, and the friction takes the rest of the spring's force.
 TEST_CASE("combined friction that comes to rest at its bound beside a slider gives way") {
   struct Case { std::string velocity; double (*back)(double); };
   const Case cases[] = {{"{ sine = 1, frequency = 0.5 }", [](double t) { return -std::sin(std::numbers::pi * t); }},

@@ -5,9 +5,8 @@
 
 using namespace rheonet;
 
-// A slider whose ends have come to rest against each other was kept from going on as before, also where it had broken
-// away within that very instant, or where only the drive's next derivatives say which way it goes: it stuck, let go,
-// and so on.
+// A slider whose ends have come to relative rest was not allowed to continue in its earlier direction, not even if it had broken away at the
+// same instant, or if only higher derivatives of the drive determine its direction. So it alternated between stick and slip.
 TEST_CASE("a slider between a massless node and a mass comes to rest, and goes on") {
   SUBCASE("it breaks away in the instant of another change") {
     test::check_against_closer(test::netlist({}, R"([elements]
@@ -33,8 +32,8 @@ m1 = { type = "mass", at = "n1", mass = 0.07926017738542353 }
   }
 }
 
-// Such a slider bears its full force at first, and less by the second order of time from there on: the error of the first step
-// let it slip again, for a moment, and again and again at a loose accuracy.
+// Such a slider has its full force at first, which then falls only quadratically in time. The error of the first step let it slip again for a
+// moment, and at a loose accuracy many times.
 TEST_CASE("a slider that has come to rest at its full force sticks at once, however loose the accuracy") {
   for (const double accuracy : {1e-2, 1e-3, 1e-5, 1e-8}) {
     CAPTURE(accuracy);

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double sigma = 17.9, B = 3.59, stop = 0.31;
 
-/// Friction behind a slider that sticks, both between what is moved: the one end comes to rest against the other at t = stop.
+/// Friction in series with a sticking slider, between two driven nodes that come to relative rest at t = stop.
 std::string scene(double frame, const std::string& beside) {
   const auto number = [](double x) { return std::to_string(x); };
   return test::netlist({}, R"([elements]
@@ -26,8 +26,8 @@ holder = { type = "slider", between = ["mid", "base"], coulomb = 2.3 }
 
 }  // namespace
 
-// What ends on a slider was not taken for what is at rest between two motions: the friction went on in the sense of its motion
-// before, where at rest s = 0, and relaxed by a slope that is not that of rest.
+// An element connected to a slider was not recognised as at rest between two motions. The friction kept the direction s of its earlier motion,
+// in place of s = 0 at rest, and relaxed with the wrong slope.
 TEST_CASE("friction behind a slider that sticks is at rest where what moves them is") {
   for (const double frame : {0.0, 0.71}) {
     for (const double accuracy : test::accuracies) {

@@ -6,9 +6,9 @@
 
 using namespace rheonet::test;
 
-// A dashpot of flow index below 1 is solved for its force. Where friction beside it reverses the velocities that it follows
-// from are equal but for their rounding, of which it makes a force: taken for one that is out of balance, it pressed the
-// friction into standing, and nothing determined the node.
+// A dashpot with a flow index below 1 is solved for its force. When friction in parallel reverses, the velocities of its ends are equal up to
+// round-off, which the law turns into a force. This force counted as an imbalance and forced the friction to rest, and then nothing determined
+// the node.
 TEST_CASE("friction that relaxes reverses beside a pseudoplastic dashpot while both its ends move") {
   const std::string scene = R"([elements]
 fixing = { type = "sfm", between = ["block", "ground"], stiffness = 106, coulomb = 0.144, exponent = 1 }

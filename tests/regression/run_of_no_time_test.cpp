@@ -24,7 +24,7 @@ m    = {{ type = "mass", at = "block", mass = 0.37 }}
 [simulate]
 stop = {}
 )", V, k1, k2, stop)));
-    // To first order in the time the dashpot does not give, and the springs share what is pulled.
+    // To first order in time the dashpot does not move, and the springs share the displacement.
     CHECK(std::abs(run["k1.force"].back() / (k1 * k2 / (k1 + k2) * V * stop) - 1) < 1e-3 + 40 * stop);
     CHECK(std::abs(run["c.force"].back() / run["k2.force"].back() - 1) < 1e-9);
   }

@@ -1,5 +1,5 @@
-// A mass that a slider takes along with a drive, against another slider: the drive's own acceleration breaks it away. What
-// decides among equals once outweighed the rounding by which the bound is passed, and the slider never let go.
+// A slider drags a mass along with a drive, against another slider; the acceleration of the drive breaks it away. The regularisation that
+// decides between equal sliders outweighed the round-off by which the bound is exceeded, and the slider never broke away.
 #include <doctest/doctest.h>
 
 #include <fmt/format.h>
@@ -23,8 +23,8 @@ stop = 0.9
 output = {{ points = 2, events = true }}
 )",
                                         speed, Fc, m, F0);
-  // At the start m a = m speed omega is more than the clutch can give beside the brake: it slips at once, sticks where the
-  // belt has slowed down to the block, and slips again where m (-a) = Fc + F0.
+  // At the start m a = m speed omega exceeds the force of the clutch minus that of the brake, so that it slips at once. It sticks when the belt
+  // has slowed down to the velocity of the block, and slips again when m (-a) = Fc + F0.
   const double push = (Fc - F0) / m;
   REQUIRE(push < speed * omega);
   double low = std::acos(push / (speed * omega)) / omega, high = 3.14159265358979323846 / omega;

@@ -34,8 +34,8 @@ output = { points = 61 }
   }
 }
 
-// What was left of the velocity at the event, within its margin, outweighed all that a pseudoplastic dashpot lets change in
-// a moment: instead of resting the friction turned to and fro thousands of times.
+// The velocity at the event, within the margin of the guard, was larger than any change that a pseudoplastic dashpot allows in a moment. So the
+// friction did not come to rest and reversed thousands of times.
 TEST_CASE("friction rests beside a pseudoplastic dashpot") {
   for (const double n : {0.7, 0.8, 1.0}) {
     CAPTURE(n);
@@ -71,8 +71,7 @@ void check_events(const std::string& toml, long events) {
 
 }  // namespace
 
-// Friction beside a slider turned a little before that, and the slider was left behind, slipping to and fro over thousands of
-// stops.
+// Friction in parallel with a slider turned a little before the slider, which then slipped back and forth over thousands of stops.
 TEST_CASE("a slider that turns with friction beside it comes to rest with it") {
   check_events(R"([elements]
 drive = { type = "motion", at = "end", position = { table = [[0, 0], [0.1312, -0.04566], [0.2907, 0.07795], [0.4436, -0.08659], [0.6243, 0.08726], [0.7345, -0.07884]] } }

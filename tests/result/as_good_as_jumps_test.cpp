@@ -45,12 +45,12 @@ TEST_CASE("what is over within a hundredth of the time to the events around it i
     for (const double off : {0.7, -0.7, 1.0}) {
       CAPTURE(off);
       CHECK(std::abs(error(scene, truth, 0, off, 0.01) - (jumps ? 0 : std::abs(off))) < 1e-6);
-      // A jump that may not be displaced by as much as it takes is none.
+      // A change that lasts longer than the allowed shift in time is not a jump.
       CHECK(std::abs(error(scene, truth, 0, off, 0.9 * lasts) - std::abs(off)) < 1e-6);
     }
     // It is at no place beyond what it goes between.
     CHECK(std::abs(error(scene, truth, 0, 1.3, 0.01) - (jumps ? 0.3 : 1.3)) < 1e-6);
-    // What goes on smoothly does not jump there.
+    // A smooth record does not jump there.
     CHECK(std::abs(error(scene, truth, 1, 0.02, 0.01) - 0.02) < 1e-6);
   }
 }

@@ -53,7 +53,7 @@ TEST_CASE("an imbalance is an error of the forces at its node, and by its share 
   const Scene scene = scene_of(chain, allowed);
   const Balances balances(scene);
   CHECK(balances.asked() == 2);
-  // All of what meets at `mid` and `low`: the two own records, and three more forces.
+  // All forces at `mid` and `low`: the two records of the scene, and three more.
   REQUIRE(balances.scene().records.size() == 5);
 
   std::vector<RecordError> errors = sound();
@@ -73,7 +73,7 @@ TEST_CASE("an imbalance is an error of the forces at its node, and by its share 
   CHECK(describe(balances.scene(), *worst) ==
         "the forces of `k`, `c` at node `mid` sum to 0.0003 N, 7.5e-05 of the largest of them, at t = 0.5 s");
 
-  // At `low`, a drive is one of the forces; less than what is allowed is no imbalance, but an error all the same.
+  // At `low`, a drive is one of the forces. An imbalance within the tolerance is not reported, but counts as an error.
   errors = sound();
   worst = balances.raise(trajectory(-3e-4, "pull.force", balances.scene()), allowed, errors);
   REQUIRE(worst.has_value());

@@ -177,7 +177,7 @@ TEST_CASE("Claims: a level that is reached between the places where a record is 
   CHECK(under.found < 0.29);
   CHECK(std::isnan(of_course(crossing(1.0001), hump).found));
   CHECK(std::abs(of_course(claim_of(Claim::Figure::max), hump).found - 1) <= 1e-12);
-  // Downwards the same, and only from the start of what is looked at.
+  // The same downwards, and only from the start of the interval.
   const auto dip = [&](double t) { return -hump(t); };
   CHECK(of_course(crossing(-0.9999), dip).found == under.found);
   CHECK(std::abs(of_course(claim_of(Claim::Figure::min), dip).found + 1) <= 1e-12);

@@ -1,4 +1,4 @@
-// What a run says of the elements that switch.
+// The events of a run.
 
 #include <doctest/doctest.h>
 

@@ -64,7 +64,7 @@ TEST_CASE("an explanation lists the unknowns and what determines them, and what 
   CHECK(unknown(e, "deflection", true) == Names{"k1", "k2"});
   CHECK_EQ(e.structure.differential + e.structure.algebraic, e.cost.unknowns);
   CHECK(left_out(e, "node", "bundles") == Names{"rub"});
-  CHECK(left_out(e, "deflection of", "given") == Names{"s3"});  // the spring goes by the name of its slider
+  CHECK(left_out(e, "deflection of", "given") == Names{"s3"});  // The spring has the name of its slider.
   CHECK(left_out(e, "position of", "positions") == Names{"block", "mid"});
   CHECK(left_out(e, "element", "unasked") == Names{"k4"});
   CHECK(left_out(e, "motion of", "") == Names{"grip"});

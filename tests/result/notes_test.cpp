@@ -1,4 +1,4 @@
-// What a run says of itself beside its rows.
+// The notes of a run.
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// What counts as an error, with made-up runs; and what a yardstick remembers of a real one.
+// The definition of an error, with artificial runs; and the reference solution of a real run.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -55,7 +55,7 @@ TEST_CASE("a jump may be displaced by as much as is allowed, and no more") {
   CHECK(relative({1, 3, 0}, 0.0101) == std::vector<double>{0, 0});
   CHECK(relative({1, 3, 0}, 0.0099)[0] == doctest::Approx(2.0 / 3));
   CHECK(relative({1, 3, 0}, 0.0099)[1] == doctest::Approx(2.0 / 3));
-  // A jump excuses neither what is on neither side of it, nor what is further away than it goes.
+  // A jump excuses neither values outside its two sides, nor values further away than its uncertainty in time.
   CHECK(relative({2.4, 1, 0}, 0.0101)[0] == doctest::Approx(0.2));
   CHECK(relative({7.5, 1, 0}, 0.0101)[0] == doctest::Approx(1.5));
 }

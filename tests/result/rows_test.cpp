@@ -61,7 +61,7 @@ TEST_CASE("a run that starts later counts from there") {
 TEST_CASE("a late start gives the same results: only the column of time is later") {
   constexpr double late = 1e8, length = 1.3;
   const auto scene = [&](double start, bool begun) {
-    // What began at 0 has gone through whole periods by then, but for those that are still under way.
+    // A signal that began at 0 has completed whole periods by then.
     const double time = begun ? 0 : start;
     SceneBuilder b;
     b.motion("drive", "a", "velocity", Signal(Signal::Sine{0.37, 2, 0.4, time, 0.013}));

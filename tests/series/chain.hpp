@@ -12,12 +12,12 @@ namespace rheonet::test {
 /// and drives are spread evenly over 12 decades. The chain of a number is the same on every machine.
 struct Chain {
   enum class Kind {
-    steady,   ///< single elements between ground and a motion of constant velocity: its force has a closed form
-    driven,   ///< from a motion (sine, triangle, ramp, step; a velocity or a position) to ground
-    between,  ///< between two motions
-    pushed,   ///< from a force, with a mass there or not, to ground
-    hung,     ///< from a motion to a mass
-    grouped,  ///< as `driven`, in rotation, written as nested `series` and `parallel`
+    steady,   ///< Single elements between ground and a motion of constant velocity: the force has a closed form.
+    driven,   ///< From a motion (sine, triangle, ramp, step; a velocity or a position) to ground.
+    between,  ///< Between two motions.
+    pushed,   ///< From a force, with a mass there or not, to ground.
+    hung,     ///< From a motion to a mass.
+    grouped,  ///< Like `driven`, in rotation, written as nested `series` and `parallel`.
   };
   static constexpr int kinds = 6;
 

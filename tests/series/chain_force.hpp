@@ -6,9 +6,9 @@
 
 namespace rheonet::test {
 
-/// The force at these times in a chain whose ends move apart at a constant velocity V from rest, by quadrature. With one force f in
-/// all elements their velocities sum to V: f' C(f) + r(f) = V, where C sums the compliances (1/k of a spring or a viscous friction
-/// model, (1 - f/Fc)^-i / sigma of solid friction) and r the velocities of dashpots, so that
+/// The force at these times in a chain whose ends move apart at a constant velocity V from rest, by quadrature. All elements have the same
+/// force f, and their velocities sum to V: f' C(f) + r(f) = V. C is the sum of the compliances: 1/k of a spring or a viscous friction model,
+/// (1 - f/Fc)^-i / sigma of solid friction. r is the sum of the velocities of the dashpots. Hence
 ///
 ///     t(f) = integral of C / (V - r) from 0 to f.
 ///

@@ -19,7 +19,7 @@ namespace rheonet::test {
 namespace {
 
 constexpr double accuracies[] = {1e-3, 1e-6, 1e-9};
-// Of the accuracy asked that rows of a run that is not certified may be off by.
+// Allowed error of a run that is not certified, as a multiple of the accuracy.
 constexpr double plain_share = 10;
 
 struct Rows {
@@ -69,7 +69,7 @@ void judge(const Chain& chain, Tally& tally) {
         ++tally.not_certified;
       }
     } catch (const SimulationError& error) {
-      // What is pushed by more than friction can take moves beyond all bounds.
+      // A node that is pushed by more than friction can take moves without bound.
       CHECK_MESSAGE((limited.stop || chain.kind == Chain::Kind::pushed), error.what());
       ++(limited.stop ? tally.slow : tally.refused);
     }

@@ -103,7 +103,7 @@ TEST_CASE("friction at presliding distances far below the way gone is followed t
     b.between("f1", "sfm", "block", "ground", {{"stiffness", sigma}, {"coulomb", Fc}, {"exponent", 1}});
     b.start("block", 0, v);
     const RunTable run = simulate(b.finish(1.2, 12, accuracy_of_run));
-    // Work: m v^2/2 = Fc x - Fc^2/sigma (1 - exp(-sigma x/Fc)), but for what still rings at the end.
+    // Work: m v^2/2 = Fc x - Fc^2/sigma (1 - exp(-sigma x/Fc)), except for the remaining oscillation.
     CHECK(std::abs(run["block.position"].back() - (m * v * v / (2 * Fc) + Fc / sigma)) < 2e-6);
     CHECK(std::abs(run["block.velocity"].back()) < 1e-3);
   }

@@ -1,4 +1,4 @@
-// What ends a run names the elements to look at, the time, and what would mend it, however small the network is.
+// An error that ends a run names the elements to look at, the time, and the remedy, even in the smallest network.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 

@@ -41,7 +41,7 @@ class Vectors {
   std::vector<N_Vector> vectors_;
 };
 
-/// What `operation` makes of vectors is what SUNDIALS makes of them.
+/// Checks that `operation` gives the same result for our vectors as for those of SUNDIALS.
 void compare(const std::function<double(Vectors&)>& operation) {
   // Below, at and above the length of a block.
   for (const sunindextype length : {1, 2, 3, 63, 64, 65, 200}) {

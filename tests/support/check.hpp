@@ -25,15 +25,15 @@ struct Expectation {
 };
 using Expectations = std::vector<Expectation>;
 
-/// Checks that at every row abs(computed - exact) <= 10 accuracy max(abs(exact)): ten times what the accuracy promises.
-/// Says which row is the worst, and by how much.
+/// Checks that at every row abs(computed - exact) <= 10 accuracy max(abs(exact)): ten times the promised error. A failure names the row with
+/// the largest error.
 void check_against(const RunTable& trajectory, const Expectation& expected, double accuracy);
 
 /// Runs the netlist at each of `accuracies` and checks every expectation at each.
 void check_at_all_accuracies(const std::string& toml, const Expectations& expected);
 
-/// Where there is no closed form: runs the netlist at `accuracy` and much closer, and checks each of these columns, which do
-/// not jump, at every row: off by at most 10 accuracy max(abs(closer)).
+/// For netlists without a closed form: runs the netlist at `accuracy` and at `closest`, and checks that each of these columns, which must not
+/// jump, differs at every row by at most 10 accuracy max(abs(closer)).
 void check_against_closer(const std::string& toml, double accuracy, const std::vector<std::string>& columns, double closest = 1e-10);
 
 /// A function that begins at `start`; before it, the constant `before`.
@@ -43,7 +43,7 @@ Exact from(double start, Exact after, double before = 0);
 using Named = std::initializer_list<std::pair<std::string_view, double>>;
 std::string netlist(Named parameters, std::string_view tables, double stop, int rows = 201);
 
-/// A last line for such a netlist: records the columns expected, some of which may not be recorded unasked.
+/// A last line for such a netlist, which records the expected columns; some are not recorded by default.
 std::string record(const Expectations& expected);
 
 }  // namespace rheonet::test

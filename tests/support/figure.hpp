@@ -5,12 +5,11 @@
 
 namespace rheonet::test {
 
-/// Whether a figure of `rheonet plot` shows what another does: all that can be read in it (what its curves are, the numbers
-/// at its axes) is the same, and each of its curves goes as far. Fails the test where not; not of pixels, so that curves
-/// may differ by what the accuracy of a run allows.
+/// Checks that two figures of `rheonet plot` show the same: all texts (names of curves, numbers at axes) are equal, and each curve has the
+/// same extent. Pixels are not compared, so that curves may differ within the accuracy of a run.
 void check_same_figure(const std::string& drawn, const std::string& kept);
 
-/// What the groups of a pattern match in a text, one after the other.
+/// The texts that the groups of a pattern match, in order.
 std::vector<std::string> matches(const std::string& text, const std::string& pattern);
 
 }  // namespace rheonet::test

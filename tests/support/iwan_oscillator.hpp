@@ -4,10 +4,9 @@
 
 namespace rheonet::test {
 
-/// A mass m driven by the force F sin(2 pi f t) and held by spring-slider pairs in parallel, from rest at x = 0: from
-/// kink to kink a linear equation, x'' = (F sin(2 pi f t) - force - k (x - x_k))/m, solved by its Taylor series in long
-/// double. Yields and reversals are roots of the series; every pair has its own force. Nothing here is shared with the
-/// solver.
+/// A mass m driven by the force F sin(2 pi f t) and held by spring-slider pairs in parallel, from rest at x = 0. Between kinks the equation
+/// is linear, x'' = (F sin(2 pi f t) - force - k (x - x_k))/m, and is solved by its Taylor series in long double. Yields and reversals are
+/// roots of the series; every pair has its own force. No code is shared with the solver.
 class IwanOscillator {
  public:
   struct Pair {

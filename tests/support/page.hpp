@@ -11,7 +11,7 @@ struct Block {
   std::string text;
 };
 
-/// The fenced blocks of a page, in order; what stands between them has the language "-".
+/// The fenced blocks of a page, in order; the text between them has the language "-".
 std::vector<Block> parts(const std::string& page);
 
 /// The fenced blocks alone.

@@ -16,7 +16,7 @@ namespace rheonet::test {
 
 using Visit = std::function<void(double t, const std::vector<double>& y, const std::vector<double>& yp)>;
 
-/// A scene taken as far as its equations, as `run` does it.
+/// The network and the equations of a scene, set up as in `run`.
 class Probe {
  public:
   /// Just after the first instant.

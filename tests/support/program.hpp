@@ -5,14 +5,14 @@
 
 namespace rheonet::test {
 
-/// What a process left behind.
+/// The result of a process.
 struct Finished {
-  int status = 0;  ///< exit status; 128 + n if signal n ended it
+  int status = 0;  ///< Exit status; 128 + n if signal n ended the process.
   std::string out;
   std::string err;
 };
 
-/// An empty folder that is gone, with all in it, when the test ends.
+/// An empty folder, which is removed with its contents at the end of the test.
 class Folder {
  public:
   Folder();
@@ -29,7 +29,7 @@ class Folder {
 
   /// Runs a shell command in the folder; `rheonet` in it is the program just built.
   Finished shell(const std::string& command) const;
-  /// The same, where the exit status is as expected: fails the test, with what it said, if it is not.
+  /// The same with an expected exit status: for any other status the test fails with the output of the command.
   Finished shell(const std::string& command, int expected_status) const;
 
  private:

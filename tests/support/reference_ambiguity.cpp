@@ -10,7 +10,7 @@
 
 namespace rheonet::test {
 
-/// With gears: whether the equations of the gears and of what is at rest depend on each other.
+/// With gears: whether the equations of the gears and of the elements at rest are linearly dependent.
 bool ReferenceNetwork::open_at_rest() const {
   if (gears_.empty()) return false;
   std::vector<Eigen::VectorXd> rows;

@@ -127,9 +127,9 @@ void ReferenceBundle::accept(double step, double force, double h) {
   }
 }
 
-// At rest a cfm has s = sgn 0 = 0, its preferred force, and the sliders take the rest with the least norm, as far as they
-// can. What is then missing the cfms must give. With no slider all cfms are equally far between their two directions
-// (Filippov: the same convex combination of the two vector fields for all that flips with this velocity).
+// At rest a cfm has its preferred force, with s = sgn 0 = 0, and the sliders take the remaining force with the least norm, within their
+// bounds. The cfms must take the part that exceeds these bounds. Without a slider all cfms are at the same fraction between their two
+// directions (Filippov: the same convex combination of the two vector fields for everything that changes with this velocity).
 void ReferenceBundle::share_at_rest(double force, double h) {
   Interval relaxing{0, 0};
   double given = 0, preferred = 0;

@@ -11,12 +11,12 @@ namespace rheonet::test {
 
 namespace {
 
-// Implicit Euler is late, or early, for a turn by a few steps; what comes between has another side of the corner.
+// Implicit Euler is late or early at a turn by a few steps. Rows in between are on the other side of the corner.
 constexpr double late = 6;
 
-// So many rows before and after have a say in the error of one.
+// The error of a row takes this number of rows before and after it into account.
 constexpr std::size_t around = 2;
-// Runs that stop this near to each other, of the run's length, stop at one time.
+// Runs whose ends differ by less than this fraction of the run's length end at the same time.
 constexpr double same_end = 3e-3;
 
 using Rows = std::vector<std::vector<double>>;
@@ -66,7 +66,7 @@ class Halvings {
   bool halve(int halving) {
     all_.push_back(std::make_unique<ReferenceRun>(scene_, declarations_, settings_.base_steps, 1 << halving));
     const bool complete = all_.back()->go();
-    // What nothing balances is so whatever the step. Where longer steps found a balance these are too short for rounding.
+    // A force that nothing balances is unbalanced at any step. If longer steps found a balance, these are too short for round-off.
     if (halving > 2 && !complete && run().end() < result_.end - same_end * length()) return false;
     result_.complete = complete;
     result_.end = run().end();

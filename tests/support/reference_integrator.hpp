@@ -8,9 +8,8 @@
 
 namespace rheonet::test {
 
-/// What an independent integrator finds: fixed steps of implicit Euler (reference_step.hpp), extrapolated from two step
-/// lengths; the error is what a further halving of the step changes. It shares no code with the simulator but the reader
-/// of netlists and its signals.
+/// The solution of an independent integrator: fixed steps of implicit Euler (reference_step.hpp), extrapolated from two step sizes. The error
+/// is the change by a further halving of the step. It shares no code with the simulator except the reader of netlists and its signals.
 struct ReferenceSolution {
   struct Column {
     std::vector<double> value;  ///< at each output time
@@ -18,12 +17,12 @@ struct ReferenceSolution {
     std::vector<double> error;  ///< estimated; infinite where the laws leave the value open, or a turn lies too near
     double scale = 0;           ///< largest magnitude in the rows
   };
-  std::vector<double> time;     ///< the output times up to `end`
-  std::vector<Column> columns;  ///< one for each record of the scene
-  double end = 0;               ///< s: the stop, or where the forces could no longer be balanced
-  bool complete = true;         ///< false: nothing resists what is applied at `end`
-  double fork = 0;              ///< s: the laws leave open what comes after; infinite if they decide all
-  int steps = 0;                ///< of the finest run
+  std::vector<double> time;     ///< The output times up to `end` [s].
+  std::vector<Column> columns;  ///< One for each record of the scene.
+  double end = 0;               ///< Stop time, or the time at which the forces could no longer be balanced [s].
+  bool complete = true;         ///< False: nothing resists the applied force at `end`.
+  double fork = 0;              ///< Time from which the laws do not determine the motion [s]; infinite if they always do.
+  int steps = 0;                ///< Number of steps of the finest run.
 };
 
 struct ReferenceSettings {

@@ -160,7 +160,7 @@ void ReferenceLaw::accept(double step, double force, double h) {
   if (type_ == Type::spring || type_ == Type::dashpot || type_ == Type::vfm || type_ == Type::stop) return;
   const int sign = step > 0 ? 1 : step < 0 ? -1 : 0;
   if (type_ == Type::slider) slip_ = sign;
-  // What moves by no more than rounding has not turned; a slider that sticks does not move at all.
+  // A displacement within round-off is not a turn; a slider that sticks does not move at all.
   const auto tells = [&](double way) { return rigid() || stiffness_ * std::abs(way) > 1e-10 * coulomb_; };
   const bool moves = step == 0 || tells(step);
   const int direction = moves ? sign : piece_.direction;

@@ -17,7 +17,7 @@ namespace rheonet::test {
 ///     dashpot  f = B |step/h|^n sgn
 ///     slider   f = Fc sgn(step), an interval at 0
 ///     stop     f = k x beyond a bound by x, and B step/h within +-k x
-///     freewheel  f = 0 for step > 0, all that is not above 0 at 0, and no step below
+///     freewheel  f = 0 for step > 0, any f <= 0 for step = 0; a step < 0 is impossible
 ///     sfm      the closed form between two reversals, in the direction of the step
 ///     vfm      (B/sigma) (f - f_before)/h + f = B step/h
 ///     cfm      sfm's closed form along step - h f/B, in the direction of the step. At 0 the graph between the two

@@ -14,12 +14,12 @@ namespace {
 constexpr double instant = 1e-7;
 constexpr int instant_steps = 8;
 
-// A turn is known to this part of the step (see ReferenceRun::step): 2^-12. So many are sought in a run, lest rounding that looks
-// like turns without end takes all the time.
+// A turn is located to this fraction of the step (see ReferenceRun::step): 2^-12. The number of searches in a run is limited, because
+// round-off can look like endless turns.
 constexpr int bisections = 12;
 constexpr int most_searches = 300;
 constexpr int instant_bisections = 5;
-// Nor in a step so short that this share of the forces is rounding.
+// A turn is not located in steps so short that this fraction of the forces is round-off.
 constexpr double most_blur = 1e-8;
 // A law that turns in every short step is at rest but for rounding: there is no instant to be found.
 constexpr int most_halvings = 20 * bisections;
@@ -176,9 +176,9 @@ bool ReferenceRun::turns_ahead(double ahead) const {
   return !network.step(input(t_, t_ + ahead)) || network.turned_since(network_);
 }
 
-/// One step to `after`. A step in which a law turns is halved, and so on, until the instant is known well: else the error
-/// would be as large as the step and depend on where in it the instant lies, and could not be extrapolated away. With
-/// `ahead`, a turn that a step of that length shows after this one is taken to lie in this one.
+/// One step to `after`. A step in which a law turns is bisected until the instant is located. Otherwise the error would be of the order of
+/// the step and depend on the position of the instant in it, which extrapolation cannot remove. With `ahead`, a turn that a step of that
+/// length shows after this one counts as a turn in this one.
 bool ReferenceRun::step(double after, int depth, double ahead) {
   const double before = t_, h = after - before;
   if (depth == bisections) halvings_ = 0;
@@ -236,7 +236,7 @@ bool ReferenceRun::jump(const std::vector<double>& steps) {
   return true;
 }
 
-/// Goes over to the stretches of the signals that begin at t.
+/// Switches to the pieces of the signals that begin at t.
 bool ReferenceRun::enter(double t) {
   last_.reset();
   std::vector<double> steps(scene_.nodes.size(), 0);

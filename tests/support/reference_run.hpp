@@ -79,14 +79,14 @@ class ReferenceRun {
   std::vector<char> open_;
   std::vector<std::vector<ReferenceLaw::Piece>> pieces_;
   double t_ = 0;
-  int halvings_ = 0;                  ///< in the present search for a turn
-  bool at_instant_ = false;  ///< in the short steps just after a break
+  int halvings_ = 0;                  ///< Number of bisections in the present search for a turn.
+  bool at_instant_ = false;  ///< True in the short steps just after a break.
   int searches_ = 0;
   double fork_ = INFINITY;
-  std::optional<Step> first_turn_;  ///< of those within a step, the shortest step that shows it
-  std::optional<Start> last_;  ///< of the step before, if it was without a turn
-  std::vector<double> turns_;  ///< when they were [s]
-  ReferenceNetwork network_;  ///< last, because it is built from what is above
+  std::optional<Step> first_turn_;  ///< The shortest step that shows the first turn.
+  std::optional<Start> last_;  ///< Start of the step before, if it had no turn.
+  std::vector<double> turns_;  ///< Times of the turns [s].
+  ReferenceNetwork network_;  ///< The last member, because it is built from the members above.
 };
 
 }  // namespace rheonet::test

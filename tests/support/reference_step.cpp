@@ -16,7 +16,7 @@ constexpr int corrections = 200, stiffen_after = 8;
 constexpr int newton_steps = 200;
 // A balance is found to this part of the forces that meet there: some rounding errors.
 constexpr double balanced = 3e-14;
-// Of what the rounding of a series spring would blur, the corrections leave this share.
+// Fraction of the round-off of a series spring that remains after the corrections.
 constexpr double corrected = 1e-2;
 // The stretch of a series spring that is left, against a force of the network in the spring.
 constexpr double unstretched = 1e-8;
@@ -120,7 +120,7 @@ void ReferenceNetwork::evaluate(const Input& input) {
   if (largest_force_ > 0) blur_ /= largest_force_;
 }
 
-/// What rounding may leave out of balance where the magnitudes of the forces sum to `size`.
+/// Imbalance that round-off may cause where the magnitudes of the forces sum to `size`.
 double ReferenceNetwork::tolerance(double size) const { return balanced * (size + 1e-2 * largest_force_) + rounding_; }
 
 double ReferenceNetwork::slope_along(const Input& input, const std::vector<double>& direction) {
@@ -137,7 +137,7 @@ bool ReferenceNetwork::search(const Input& input, const std::vector<double>& dir
     for (std::size_t i = 0; i < node_of_.size(); ++i) x_[at(node_of_[i])] = from[at(node_of_[i])] + t * direction[i];
     return slope_along(input, direction);
   };
-  // Far away rounding is more than what there is to be seen.
+  // Whether the round-off of the forces hides a slope along the search direction.
   const auto blurred = [&](double slope) {
     double noise = 0;
     for (std::size_t i = 0; i < node_of_.size(); ++i) noise += 1e-15 * size_[i] * std::abs(direction[i]);
@@ -226,7 +226,7 @@ bool ReferenceNetwork::newton(const Input& input) {
   return worst <= 1e4;
 }
 
-/// The stiffness of what a bundle works against, the way around it.
+/// The stiffness of the network around a bundle, which the bundle works against.
 double ReferenceNetwork::around(std::size_t bundle, double h) const {
   double compliance = 0, largest = 0;
   for (std::size_t n = 0; n < nodes_.size(); ++n) {
@@ -238,7 +238,7 @@ double ReferenceNetwork::around(std::size_t bundle, double h) const {
     const bool end = at(bundles_[bundle].a) == n || at(bundles_[bundle].b) == n;
     if (end && unknown_[n] >= 0 && stiffness > 0) compliance += 1 / stiffness;
   }
-  // Between sliders alone, what is beyond them.
+  // If there are only sliders around it, the network beyond the sliders.
   const double stiffness = compliance > 0 ? 1 / compliance : largest;
   return stiffness > 0 ? stiffness : 1;
 }

@@ -13,9 +13,9 @@ namespace rheonet::test {
 ///
 ///     sum over bundles  int f d(step)  +  sum over masses  m (h/s) (x/h - v)^2/2  -  sum  F x
 ///
-/// v is the mean velocity in the step before, s the time between the middles of both: else a mass that moves as prescribed
-/// would feel a force without bound whenever a short step follows a long one.
-/// where each law is a monotone map from the displacement of its ends to its force at the end of the step.
+/// where each law is a monotone map from the displacement of its ends to its force at the end of the step. v is the mean velocity in the step
+/// before, s the time between the middles of both steps: with s = h the inertial force of a mass in prescribed motion would be unbounded when
+/// a short step follows a long one.
 class ReferenceNetwork {
  public:
   struct Node {
@@ -32,7 +32,7 @@ class ReferenceNetwork {
     double K = 0;      ///< of the spring that stands for it while a step is sought (see minimise)
     double found = 0;  ///< its force at the present point
   };
-  /// What a step is given.
+  /// Input of a step.
   struct Input {
     double h = 0;
     std::vector<double> displacement;  ///< of prescribed nodes
@@ -44,10 +44,10 @@ class ReferenceNetwork {
 
   ReferenceNetwork(std::vector<Node> nodes, std::vector<ReferenceBundle> bundles, std::vector<Gear> gears = {});
 
-  /// Takes one step. False if there is no minimum: nothing resists what is applied.
+  /// Takes one step. Returns false if there is no minimum: nothing resists the applied force.
   bool step(const Input& input);
-  /// What rounding may have left out of balance in it, as a share of the largest force: displacements of both ends of a law
-  /// are rounded, and in a short step the laws are steep.
+  /// Imbalance by round-off in the last step, as a fraction of the largest force: the displacements of both ends of a law are rounded, and in
+  /// a short step the laws are steep.
   double blur() const { return blur_; }
   /// The velocities are those of an instant from here on, and no means: s is h in the next step.
   void begin() { before_ = 0; }
@@ -89,20 +89,20 @@ class ReferenceNetwork {
   std::vector<Node> nodes_;
   std::vector<ReferenceBundle> bundles_;
   std::vector<Gear> gears_;
-  double before_ = 0;                   ///< length of the last step, 0 for none
-  std::vector<int> unknown_;            ///< of each node; -1 if prescribed
-  std::vector<NodeId> node_of_;         ///< of each unknown
-  std::vector<double> x_;               ///< displacement of each node in this step
+  double before_ = 0;                   ///< Size of the last step, 0: none.
+  std::vector<int> unknown_;            ///< For each node its unknown; -1: prescribed.
+  std::vector<NodeId> node_of_;         ///< For each unknown its node.
+  std::vector<double> x_;               ///< Displacement of each node in this step.
   std::vector<ReferenceBundle::Point> points_;
-  std::vector<double> preload_, K_;     ///< of each steep bundle (see minimise)
-  std::vector<double> gradient_, size_; ///< of each unknown: what is out of balance, and the sum of magnitudes there
+  std::vector<double> preload_, K_;     ///< For each steep bundle (see minimise).
+  std::vector<double> gradient_, size_; ///< For each unknown: the imbalance, and the sum of magnitudes of the forces.
   std::vector<double> matrix_;
   std::vector<double> nodal_;
-  double blur_ = 0;                     ///< see blur
-  double unbalance_ = 0;                ///< the worst, of what rounding may leave
-  double largest_force_ = 0, largest_step_ = 0;  ///< at the present point
-  double typical_step_ = 0;             ///< at any balance found in this step
-  double rounding_ = 1e-300;            ///< of forces that are reckoned as a part of a Coulomb level [N]
+  double blur_ = 0;                     ///< See blur().
+  double unbalance_ = 0;                ///< Largest imbalance relative to round-off.
+  double largest_force_ = 0, largest_step_ = 0;  ///< At the present point.
+  double typical_step_ = 0;             ///< At any balance found in this step.
+  double rounding_ = 1e-300;            ///< Round-off of forces that are computed as a fraction of a Coulomb force [N].
   bool ambiguous_ = false, forked_ = false;
 };
 

@@ -9,8 +9,8 @@
 
 namespace rheonet::test {
 
-/// Makes a scene as the reader of netlists would, without a netlist: nodes by naming them, parameters by name, what is
-/// not given takes its default.
+/// Builds a scene without a netlist, as the reader of netlists would. Naming a node creates it; parameters are given by name, and the others
+/// take their defaults.
 class SceneBuilder {
  public:
   using Given = std::initializer_list<std::pair<const char*, double>>;

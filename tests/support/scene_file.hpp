@@ -8,8 +8,8 @@
 
 namespace rheonet::test {
 
-/// A netlist of the project that has been run: its rows, and the values in it [SI], so that a test of what it claims
-/// holds for others too.
+/// A netlist of the project that has been run: its rows and its values [SI]. Tests take the values from here, so that they stay valid if the
+/// netlist changes.
 struct SceneFile {
   Scene scene;
   RunTable rows;

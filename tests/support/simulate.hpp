@@ -33,7 +33,7 @@ RunTable simulate(const std::string& toml, double accuracy = 0);
 /// Runs a scene. Throws SimulationError, also where the run would go on for ever.
 RunTable simulate(const Scene& scene, Summary* summary = nullptr);
 
-/// What came of a run: if it ended with a SimulationError, its text and the rows up to there.
+/// The outcome of a run: its rows, and the text of the SimulationError if it ended with one.
 struct Attempt {
   RunTable rows;
   Summary summary;

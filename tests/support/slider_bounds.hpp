@@ -9,7 +9,7 @@ namespace rheonet::test {
 /// Forces of a slider [N]: while it slips, and at which it breaks away.
 struct SliderBounds { double coulomb, breakaway; };
 
-/// Of a slider with its `normal`, `peak` and signals; `value` gives the present value of each of its signals, in their order.
+/// The bounds of a slider with its `normal`, `peak` and signals. `value` returns the present value of a signal.
 SliderBounds slider_bounds(const SceneElement& slider, const std::function<double(const Signal&)>& value);
 
 }  // namespace rheonet::test

@@ -14,7 +14,7 @@ struct Scaling {
   double length = 1, time = 1, force = 1;
   double of(Quantity quantity, Domain domain, double flow_index = 1) const;
 };
-/// What a record of the scene is multiplied with.
+/// The factor by which a record of the scene is multiplied.
 double factor(const Scene& scene, const Record& record, const Scaling& scaling);
 Scene rescaled(Scene scene, const Scaling& scaling);
 

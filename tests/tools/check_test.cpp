@@ -129,7 +129,7 @@ TEST_CASE("a node at which a single element ends is told, with the name that may
       |                                           ^
   did you mean `ground`?
 )");
-  // Of its own other end nothing is said, which would make it no element.
+  // Its own other end is not suggested: an element needs two different ends.
   CHECK(warnings("seat", "seta") == R"(scene.toml:3:43: warning: nothing but `k` is at node `seta`: it carries no force
     3 | k = { type = "spring", between = ["seat", "seta"], stiffness = 3 }
       |                                           ^

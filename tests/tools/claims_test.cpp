@@ -1,4 +1,4 @@
-// What `run` and `check` say of [check] and [expect].
+// The output of `run` and `check` on [check] and [expect].
 #include <doctest/doctest.h>
 
 #include "tests/support/program.hpp"

@@ -74,7 +74,7 @@ TEST_CASE("compare: pairs by name, more scenes, the first one's rows up to the s
   CHECK(piped.out == folder.read("overlay.csv"));
   CHECK(contains(piped.err, result.out));
   CHECK(contains(piped.err, "\nwithin 0.1: "));
-  // What is paired need not be recorded; the first scene decides over the rows.
+  // Paired quantities need not be recorded; the first scene determines the rows.
   const Finished other = folder.shell("rheonet compare three.toml one.toml --pair d.displacement=c.displacement", 0);
   CHECK(contains(other.out, "0 s to 1 s, 11 rows, 0.1 s apart"));
   CHECK(contains(other.out, "d.displacement / c.displacement                 0 m         0   -"));
@@ -130,7 +130,7 @@ TEST_CASE("compare: --vary goes through a range and gives a table") {
   }
   CHECK_FALSE(std::getline(table, line));
   CHECK(contains(vary("parameters.B=1:100:3:log", 0).out, "\n  10 "));
-  // What differs over the range: the farthest decides.
+  // Differences over a range: the largest decides.
   folder.write("three.toml",
                "[parameters]\nB = 3\nmore = \"B*B/10\"\n[elements]\n"
                "drive = { type = \"motion\", at = \"a\", velocity = 2 }\n"

@@ -33,7 +33,7 @@ TEST_CASE("effects says what each effect contributes and what the scene can do w
   CHECK(contains(csv, "\ninertia,k1.force,N,"));
   CHECK(contains(csv, "\nviscosity,k1.force,N,"));
   CHECK(contains(csv, "\ninertia elasticity,k1.force,N,"));
-  // What matters and what does not depends on what is asked for.
+  // Which effects matter depends on the accepted error.
   CHECK(contains(folder.shell("rheonet effects scene.toml --runs 1 --within 1e-9", 0).out, "this scene needs all that it has"));
 }
 

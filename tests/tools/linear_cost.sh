@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# What a step costs goes with the size of the network: in a chain four times as long a mass takes as many instructions a step,
-# but for a quarter of them. valgrind counts. Springs and dashpots alone, and friction, which has events too.
+# The cost of a step is proportional to the size of the network: in a chain four times as long, the instructions per mass and step are equal
+# within a quarter. valgrind counts them. One chain has springs and dashpots only, one has friction, and so events.
 #
 #   linear_cost.sh VALGRIND RHEONET
 set -eu

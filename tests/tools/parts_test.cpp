@@ -16,7 +16,7 @@ output = { points = 11 }
 record = ["one.position", "two.position", "belt.force"]
 )";
 
-/// Of each line of a list of events all but the time.
+/// The lines of a list of events without their times.
 std::multiset<std::string> events(const std::string& csv) {
   std::multiset<std::string> result;
   std::istringstream lines(csv);

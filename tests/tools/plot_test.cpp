@@ -136,7 +136,7 @@ TEST_CASE("a scene says what is worth drawing, unless the command line does") {
   CHECK(contains(folder.shell("rheonet plot scene.toml -o - --unit mm", 0).out, "displacement [mm]"));
   CHECK(contains(folder.shell("rheonet plot scene.toml -o - -y k1.force", 0).out,
                  "<desc>force [N] against time [s]: k1.force</desc>"));
-  // Of a run only what it records: here nothing of the loops, so all else over time.
+  // A run plots only its records: here none for the loops, so all records over time.
   folder.shell("rheonet run scene.toml -q -o a.csv --plot run.svg", 0);
   CHECK(contains(folder.read("run.svg"), "force [N] against time [s]: k1.force"));
   folder.shell("rheonet run scene.toml -q -o a.csv --plot run.svg --set simulate.record='[\"c1.force\",\"c1.displacement\"]'", 0);

@@ -107,7 +107,7 @@ void check_refused(const Folder& folder, const std::vector<std::pair<std::string
   }
 }
 
-// A spring that is moved to and fro beside a spring and a slider: x = a sin(w t).
+// A spring in parallel with a spring and a slider in series, driven by x = a sin(w t).
 const std::string bundle = R"([elements]
 drive = { type = "motion", at = "p", position = { sine = "0.31 m", frequency = "1.7 Hz" } }
 m = { type = "mass", at = "a", mass = 0.7 }

@@ -160,7 +160,7 @@ TEST_CASE("every example of the README and of the manual does what it says") {
   }
   for (const std::string file : {"pad.html", "both.html"}) CHECK(folder.has(file) == rheonet::web::are_built());
 
-  // What a sweep varies shows in its measure.
+  // The measure of a sweep depends on the varied value.
   const auto swept = cells(folder.read("sweep.csv"));
   REQUIRE(swept.size() == 41);
   CHECK(std::stod(swept.back()[2]) > 2 * std::stod(swept[1][2]));

@@ -5,7 +5,7 @@
 
 using namespace rheonet::test;
 
-// What a report shows is tested in a browser: tests/web.
+// The contents of a report are tested in a browser: tests/web.
 
 TEST_CASE("without the web pages all but report and serve works, and these say how to get them") {
   const Folder folder(oscillator);

@@ -25,7 +25,7 @@ output = { every = "0.1 s" }
 record = ["block.position"]
 )";
 
-/// A slider behind a spring, pulled to and fro: it slips at 0.1 s and sticks at 0.25 s.
+/// A slider in series with a spring, pulled back and forth: it slips at 0.1 s and sticks at 0.25 s.
 inline const std::string pulled_slider = R"([elements]
 hand = { type = "motion", at = "grip", velocity = { square = "1 m/s", frequency = "2 Hz" } }
 k1 = { type = "spring", between = ["grip", "mid"], stiffness = "10 N/m" }
@@ -44,7 +44,7 @@ inline const std::string overcome = pulled_slider + R"(s2 = { type = "slider", b
 push = { type = "force", at = "end", force = { step = "2 N", time = "0.3 s" } }
 )" + short_run;
 
-/// Two blocks that a belt pulls to and fro: parts that share nothing but its motion.
+/// Two blocks that a belt pulls back and forth: parts that share only its motion.
 inline const std::string two_blocks = R"([elements]
 belt = { type = "motion", at = "belt", velocity = { square = "0.3 m/s", frequency = "0.8 Hz" } }
 k1 = { type = "spring", between = ["belt", "one"], stiffness = 40 }

@@ -19,7 +19,7 @@ using namespace rheonet::test;
 
 namespace {
 
-/// So many runs, and a wave in each, that it can be killed on the way.
+/// A sweep with so many runs, each with a wave, that it can be killed in progress.
 const std::string many = "sweep scene.toml --vary k1.stiffness=50:500:20 block_mass.mass=1:3:15 --measure 'min(block.position)' "
                          "'time of min(block.position)' ";
 

@@ -1,4 +1,4 @@
-// What the tests of the playground do on it.
+// Actions on the playground, shared by its tests.
 import assert from 'node:assert/strict';
 import { after, before } from 'node:test';
 import { bingham, browser, done, folderWith, pointAt, remove, serve, watched } from './support.mjs';
@@ -19,7 +19,8 @@ output = { points = 801 }
 record = ["block.position", "k1.force"]
 `;
 
-// A server of a folder with these netlists, and a browser, for the tests of a file. What it gives is there when they run.
+// Starts a server of a folder with these netlists, and a browser, for the tests of a file. The properties of the result are set when the tests
+// run.
 export function setUp(files = { 'bingham.toml': bingham }) {
   const desk = {};
   before(async () => {
@@ -56,7 +57,7 @@ export async function redrawn(page, act) {
   await page.waitForFunction(() => document.querySelector('.status').dataset.latency && document.querySelector('.plots').ariaBusy === 'false');
 }
 
-// What the legend says of a record at a part of the time axis.
+// The legend's value of a record at a fraction of the time axis.
 export async function valueAt(page, part, record) {
   const chart = page.locator('.plots .chart', { has: page.locator('.u-series', { hasText: record }) }).first();
   const over = chart.locator('.u-over');
@@ -75,7 +76,7 @@ export async function shows(page, part, record, expected, tolerance = 1e-3) {
   assert.fail(`${record} is ${value}, expected ${expected}`);
 }
 
-// What is written on charts from now on: a function that gives the numbers in it so far.
+// Watches the texts that charts draw from now on. Returns a function that returns the numbers in them so far.
 export async function numbersOnCanvas(page) {
   await page.evaluate(() => {
     const { fillText } = CanvasRenderingContext2D.prototype;

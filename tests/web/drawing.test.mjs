@@ -179,7 +179,7 @@ test('a drive gets another shape, an element another type', async () => {
   await redrawn(page, () => field(page, 'velocity over time').selectOption('constant'));
   assert.match(await line(page, 'pull'), /velocity = "0.01 m\/s" \}/);
   await symbol(page, 's1').click({ position: { x: 30, y: 4 } });
-  // The new type keeps what it knows too, and begins with a value for what it needs.
+  // The new type keeps the parameters that it has too, and gets initial values for its required parameters.
   await redrawn(page, () => field(page, 'type').selectOption('sfm'));
   assert.equal(await line(page, 's1'), 's1 = { type = "sfm", between = ["block", "ground"], coulomb = "1 N", stiffness = "100 N/m" }');
   await close();

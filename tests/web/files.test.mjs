@@ -151,7 +151,7 @@ test('changes that nobody has saved are there again after the page is loaded ane
   assert.equal(await netlist(page), withStiffness(300));
   await page.locator('.variants label', { hasText: 'Edit A' }).click();
   assert.equal(await netlist(page), withStiffness(155));
-  // What is saved is that of the folder.
+  // A saved netlist is not kept in the browser: a reload shows the file in the folder.
   await page.locator('button', { hasText: 'End comparison' }).click();
   await page.keyboard.press('Control+s');
   await saidSaved(page, 'bingham.toml');

@@ -1,4 +1,4 @@
-// What the server tells of its folder, and which folders it serves.
+// The server's listing of its folder, and the folders that it serves.
 import assert from 'node:assert/strict';
 import { spawn, spawnSync } from 'node:child_process';
 import { once } from 'node:events';

@@ -1,4 +1,4 @@
-// Pages of others that show the playground in a frame: none may, unless the server is told which.
+// Foreign pages that embed the playground in a frame: refused unless the server's options name their origin.
 import assert from 'node:assert/strict';
 import { spawnSync } from 'node:child_process';
 import { createServer } from 'node:http';
@@ -54,7 +54,7 @@ test('a page of the origin that is named shows it in a frame, where it runs', as
   await frame.locator('.drawing', { hasText: '3 N·m' }).waitFor();
   const { headers } = await fetch(server.address);
   assert.match(headers.get('content-security-policy'), new RegExp(`frame-ancestors ${school}$`));
-  // What holds anything of the folder needs the token all the same.
+  // Requests for contents of the folder still need the token.
   assert.equal((await fetch(`${server.origin}/api/folder`)).status, 401);
   assert.equal((await fetch(`${server.origin}/`)).status, 401);
   await close();

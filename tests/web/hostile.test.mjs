@@ -1,4 +1,4 @@
-// Whatever is sent to it, the server stays up, answers others, and gives and takes nothing outside its folder.
+// For any request, the server keeps running, answers other clients, and neither reads nor writes outside its folder.
 import assert from 'node:assert/strict';
 import { chmodSync, existsSync, mkdirSync, readdirSync, readFileSync, rmSync, statSync, symlinkSync, writeFileSync } from 'node:fs';
 import { spawn } from 'node:child_process';
@@ -63,7 +63,7 @@ const json = { 'Content-Type': 'application/json' };
 const post = (value, path = '/api/task', headers = json) => ask(path, { method: 'POST', headers, body: typeof value === 'string' || Buffer.isBuffer(value) ? value : JSON.stringify(value) });
 const messages = (body) => body.trim().split('\n').map((line) => JSON.parse(line));
 
-// Bytes as they are; what comes back until the other side ends.
+// Sends raw bytes. Returns the answer up to the end of the connection.
 function raw(bytes, patience = 15_000) {
   return new Promise((resolve) => {
     let text = '';
@@ -110,7 +110,7 @@ test('a netlist that is sent includes nothing from outside', async () => {
     assert.match(mistakes.items[0].message, /outside|there is no file|link/);
     assert.ok(!body.includes('secret words'));
   }
-  // Nor numbers from a file.
+  // Tables of numbers outside the folder are refused, too.
   for (const name of ['../numbers.csv', join(outer, 'numbers.csv'), 'link.csv', '/proc/self/environ', '/dev/zero']) {
     const text = bingham.replace('{ step = "10 rad/s", time = "0 s" }', `{ table = ${JSON.stringify(name)} }`);
     const { body } = await post({ task: 'csv', text, file: 'bingham.toml' });
@@ -137,7 +137,7 @@ test('a netlist that is sent includes nothing from outside', async () => {
   const library = await post({ task: 'show', text: `include = ["library/rheology.toml"]\n${bingham}`, file: 'bingham.toml' });
   assert.match(library.body, /"kind":"done"/);
   assert.ok(library.body.includes('"file":"library/rheology.toml"'));
-  // Nor by the name that it gives itself.
+  // The folder cannot be left through the netlist's own file name either.
   const { body } = await post({ task: 'show', text: `include = ["secret.toml"]\n${bingham}`, file: '../x.toml' });
   assert.match(body, /there is no file/);
 });
@@ -261,7 +261,7 @@ test('a name that is none is told what is wrong with it', async () => {
     assert.equal((await ask(`/api/scene?file=${encodeURIComponent(name)}`)).body, 'x', name);
     rmSync(join(folder, name));
   }
-  // What is no UTF-8 is no JSON, and no name to read.
+  // Invalid UTF-8 is refused in JSON and in names.
   assert.match(JSON.parse((await post(Buffer.from('{"file":"a\xff.toml","text":"x"}', 'latin1'), '/api/save')).body).error, /UTF-8/);
   assert.equal((await ask('/api/scene?file=a%ff.toml')).status, 404);
   for (const [request, why] of [[{ text: 'x' }, /no name/], [{ file: 1, text: 'x' }, /no name/], [{ file: 'a.toml' }, /no text/]]) {
@@ -289,7 +289,7 @@ test('what nobody has seen is not overwritten', async () => {
   assert.equal(over, 200);
   assert.equal(on_disk(), 'second');
   assert.equal((await save({ file, text: 'third', version: first })).status, 409);
-  // Of two at once one is too late.
+  // One of two simultaneous requests is too late.
   const both = await Promise.all(['third', 'fourth'].map((text) => save({ file, text, version: second })));
   assert.deepEqual(both.map(({ status: one }) => one).sort(), [200, 409]);
   const ended = both.find(({ status: one }) => one === 200).version;
@@ -316,7 +316,7 @@ test('other pages cannot use it', async () => {
   const asked = await ask('/api/folder', { method: 'OPTIONS', headers: { Host: to, Origin: 'http://evil.example', 'Access-Control-Request-Headers': 'authorization' } });
   assert.equal(asked.status, 403);
   for (const { headers } of [asked, await ask('/api/folder'), await ask('/')]) assert.ok(!Object.keys(headers).some((name) => name.startsWith('access-control')));
-  // What a form of another page can send is no JSON.
+  // The content types that a form of another page can send are refused.
   assert.equal((await post({ task: 'show', text: bingham, file: 'a.toml' }, '/api/task', { 'Content-Type': 'text/plain' })).status, 403);
   const page = await ask('/');
   assert.match(page.headers['content-security-policy'], /default-src 'none'.*frame-ancestors 'none'/);
@@ -432,7 +432,7 @@ test('runs that never end make way for others', async () => {
   await new Promise((resolve) => setTimeout(resolve, 200));
   for (let k = 0; k < 5; ++k) {
     assert.equal((await show(bingham, 'honest')).kind, 'done');
-    // Nobody has waited for one of them to come to its limit; some go on, and those that there is no room for are told so.
+    // No request waited until one of these runs reached its limit. Some runs continue; those without room end with a message.
     assert.ok(ended.every((message) => /too many others are simulating for a run that takes longer/.test(message)), ended.at(-1));
     assert.ok(ended.length < 60);
   }

@@ -1,4 +1,4 @@
-// Lessons: no result before the prediction, the prediction beside the run, values by a button, and what is wrong in a lesson's file.
+// Lessons: no result before the prediction, the prediction next to the run, buttons for values, and mistakes in a lesson's file.
 import assert from 'node:assert/strict';
 import { readdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { dirname, join } from 'node:path';

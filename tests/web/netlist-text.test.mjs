@@ -93,7 +93,7 @@ test('a value is changed, added or taken away, wherever and however its table is
     assert.ok(come.includes(line), `${path}: ${come}`);
     const read = new NetworkText(result);
     assert.equal(read.source(read.root.at(...path).node), toml);
-    // What was added is taken away again, and leaves the text as it was.
+    // Removing an added entry restores the text.
     if (new NetworkText(scene).root.at(...path) || path[0] === 'nodes' || path[0] === 'parameters' || path[1] === 'output') continue;
     assert.equal(changed(result, read.remove(path)), scene, String(path));
   }

@@ -68,7 +68,7 @@ test('a mistake is marked where it is, and what was there stays', async () => {
   await page.keyboard.press('Control+Shift+ArrowRight');
   await page.keyboard.press('Control+End');
   await page.keyboard.type('\nstray = 1');
-  // A part of what is typed may have been looked at before.
+  // A part of the typed text may have been checked before.
   await page.locator('.mistake.error', { hasText: /^\d+:1 .*`stray`/ }).waitFor();
   await page.locator('.plots[aria-busy="false"]').waitFor();
   assert.equal(await page.locator('.mistake.error').count(), 1);
@@ -174,7 +174,7 @@ test('a link carries the scene', async () => {
   assert.match(text, /Tc = "6 N\*m"/);
   assert.equal(await other.page.locator('.plot-head input:checked').inputValue(), 'flow');
   await other.close();
-  // One that is broken is told of, and leaves a scene to begin with.
+  // A broken link gives a message and the first scene.
   for (const hash of ['#scene=AAAA', link.slice(0, -8), link.replace('#s=', '#s=z'), '#s=', '#s=aAAAA']) {
     const broken = await open(hash, {}, () => true);
     await broken.page.waitForFunction(() => document.querySelector('.status').dataset.latency);
@@ -227,7 +227,7 @@ test('it fits a phone, and light and dark; nobody is shut out', async () => {
     assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), `${what}: wider than the screen`);
     const [red] = (await page.evaluate(() => getComputedStyle(document.body).backgroundColor)).match(/\d+/g).map(Number);
     assert.ok(colorScheme === 'dark' ? red < 60 : red > 200, what);
-    // Each time its parts are made anew some while after a run; what is open stays open.
+    // The sections are rebuilt some time after each run; open ones stay open.
     await page.waitForSelector('.sections summary');
     for (const name of await page.locator('.sections summary').allTextContents()) await page.locator('.sections summary', { hasText: name }).first().click();
     await accessible(page, what);

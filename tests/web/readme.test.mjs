@@ -1,4 +1,4 @@
-// What tools/web/README.md says of its files.
+// The list of files in tools/web/README.md.
 import assert from 'node:assert/strict';
 import { readdirSync, readFileSync } from 'node:fs';
 import { dirname, join } from 'node:path';

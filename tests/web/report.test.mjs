@@ -28,7 +28,7 @@ async function open(file, options = {}) {
   return { context, page, wrong };
 }
 
-// What the legend says of a record where the pointer is: at a part of the width of a chart.
+// The legend's value of a record with the pointer at a fraction of the width of a chart.
 async function valueAt(page, chart, part, record) {
   await pointAt(page, page.locator('.panel .u-over').nth(chart), part);
   const row = page.locator('.u-series', { hasText: record }).first();
@@ -55,7 +55,7 @@ test('a report of one scene shows all there is, offline', async () => {
   assert.match(await page.locator('.verdict').textContent(), /^certified: every record is within 1e-06/);
   // In the end the torque is Tc + B w = 2 + 0.5 * 10; nothing is left of exp(-t k/B).
   assert.equal(await valueAt(page, 0, 0.999, 'k1.force'), '7 N·m');
-  // The account of the energy ends with what the statistics say.
+  // The energy account ends with the values in the statistics.
   assert.match(await page.locator('.scene').textContent(), /energy supplied/);
   assert.deepEqual(wrong, []);
   await context.close();
@@ -297,7 +297,7 @@ test('a report has the licences of the packages and fonts in it', async () => {
   assert.match(text, /Permission is hereby granted, free of charge/);
   assert.match(text, /KaTeX_Main-Regular: Copyright \(c\) 2009-2010, Design Science.* with Reserved Font Name KaTeX_Main\./);
   assert.match(text, /SIL OPEN FONT LICENSE/);
-  // Only what is in it: a report has no editor.
+  // Only the licences of the parts in the report, which has no editor.
   assert.doesNotMatch(text, /codemirror\/view/);
   await accessible(page, 'licences');
   assert.deepEqual(wrong, []);

@@ -171,7 +171,7 @@ test('forces are arrows to a scale that is shown, and energy is bars', async () 
   const found = await arrow();
   assert.ok(found.some((length) => Math.abs(length - px) < 0.1) && found.some((length) => Math.abs(length + px) < 0.1), `${found}, ${px} px/N`);
   await page.locator('[data-shows="energy"]').check();
-  // So far the hand has done the work in the spring: (1 N)^2/(2 k).
+  // The work of the hand so far is the energy of the spring: (1 N)^2/(2 k).
   const [, supplied, stored, dissipated] = /supplied([\d.]+) mJstored([\d.]+) mJdissipated([\d.]+) mJ/.exec(await page.locator('.energy-bars').textContent()).map(Number);
   assert.ok(Math.abs(supplied - 5) < 0.25 && Math.abs(stored - 5) < 0.25 && dissipated < 0.01, `${supplied} ${stored} ${dissipated}`);
   await page.locator('[data-shows="forces"]').uncheck();
@@ -201,7 +201,7 @@ test('texts of a schematic in motion stay apart from each other, from the ground
     const overlaps = (all) => all.flatMap((a, k) => all.slice(k + 1).filter((b) =>
       a.left < b.right - 0.5 && b.left < a.right - 0.5 && a.top < b.bottom - 0.5 && b.top < a.bottom - 0.5).map((b) => `${a.what} over ${b.what}`));
     const drawn = await boxes();
-    // What stands in a mass.
+    // Labels within a mass overlap it in the drawing, too.
     const inside = overlaps(drawn);
     assert.equal(inside.length, file === 'held.toml' ? 2 : 0, inside.join(', '));
     let moved = 0;

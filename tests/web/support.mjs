@@ -1,5 +1,5 @@
-// What the tests of the web pages share. The environment says where things are: RHEONET (the program), CHROMIUM,
-// NODE_PACKAGES (the folder with node_modules).
+// Code shared by the tests of the web pages. Environment variables: RHEONET (path of the program), CHROMIUM, NODE_PACKAGES (the folder with
+// node_modules).
 import assert from 'node:assert/strict';
 import { execFile, spawn } from 'node:child_process';
 import { mkdtempSync, readFileSync, rmSync, writeFileSync, mkdirSync } from 'node:fs';
@@ -98,7 +98,7 @@ export const moveSlider = (page, count) => page.evaluate(async (moves) => {
   return taken;
 }, count);
 
-// Points at a part of the width of a chart, and waits until its legend says what is there.
+// Moves the pointer to a fraction of the width of a chart, and waits until the legend shows the values there.
 export async function pointAt(page, over, part) {
   await over.scrollIntoViewIfNeeded();
   const box = await over.boundingBox();

@@ -1,4 +1,4 @@
-// The pages that the tutorial shows: its pictures of them are what comes of doing what it says.
+// The pictures of pages in the tutorial show the result of its instructions.
 import assert from 'node:assert/strict';
 import { execFile } from 'node:child_process';
 import { readFileSync } from 'node:fs';

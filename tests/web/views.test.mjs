@@ -1,4 +1,4 @@
-// What one sees of the playground at once, and what one reads from its plots.
+// The layout of the playground, and values read from its plots.
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { test } from 'node:test';
@@ -69,7 +69,7 @@ test('schematic and plots share the screen, with no plot below the fold', async 
     const { page, close } = await open(file, { viewport: { width, height } });
     assert.deepEqual(await beyond(page, ['.drawing svg', '.animation', '.plots .chart']), [], `${width} x ${height}`);
     assert.ok((await page.locator('.plots .chart:visible').first().boundingBox()).height >= 100);
-    // What there is no room for is one click away.
+    // A panel without room is one click away.
     const names = () => page.locator('.plots .chart:visible').evaluateAll((charts) => charts.map((chart) => chart.getAttribute('aria-label')));
     const first = await names();
     if (await page.locator('.next-plot').isVisible()) {

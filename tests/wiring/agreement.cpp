@@ -10,18 +10,18 @@ namespace rheonet::test {
 
 namespace {
 
-// The last halving of the step changes an extrapolated value by more than what is then left: some times that.
+// Allowed multiple of the reference's estimated error, which is the change of the extrapolated value by the last halving of the step.
 constexpr double of_error = 3;
-// What the simulator promises is 1.
+// Allowed multiple of the accuracy; the simulator promises 1.
 constexpr double of_accuracy = 20;
-// Of a record's scale: values with more doubt say nothing.
+// Values whose doubt exceeds this fraction of the record's scale are not judged.
 constexpr double largest_doubt = 1e-3;
-// What sticks moves in the reference by as much as the force on it is not balanced, in parts of the largest value of its
-// kind. A record of which that is all has no scale of its own.
+// A sticking element moves in the reference in proportion to the imbalance of its force, relative to the largest value of its kind. A
+// record that consists only of such motion has no scale of its own.
 constexpr double unstretched = 3e-8, nothing = 1e-4;
-// The same of velocities, which are that over a short step.
+// The same for velocities, which are this motion divided by a short step.
 constexpr double creeping = 2e-6;
-// m | m/s | N: where nothing moves at all, what is little in the scenes of the catalogue.
+// Smallest scale [m | m/s | N], for scenes of the catalogue in which nothing moves.
 constexpr double least = 0.1;
 
 std::size_t kind_of(const Record& record) {
@@ -34,7 +34,7 @@ std::size_t kind_of(const Record& record) {
     case Record::Channel::position:
     case Record::Channel::displacement:
       break;
-    default:  // these scenes record nothing else
+    default:  // These scenes have no other records.
       break;
   }
   return 2;

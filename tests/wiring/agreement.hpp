@@ -8,15 +8,15 @@
 
 namespace rheonet::test {
 
-/// How the rows of a run lie beside those of the reference. A value of the reference counts if its own estimate of its
-/// error is small beside the scale of its record; what it holds to be doubtful is left out.
+/// Agreement between the rows of a run and those of the reference. A value of the reference is judged only if its error estimate is small
+/// relative to the scale of its record.
 struct Agreement {
-  double worst = 0;     ///< largest deviation, in parts of what the reference's doubt and the accuracy allow: <= 1 is agreement
-  double deviation = 0; ///< the same one in parts of the record's scale
-  std::string where;    ///< record, time and both values of it
-  double judged = 0;    ///< share of the values that count
-  std::string unjudged; ///< a record of which no value counts; "" if there is none
-  /// Root mean squares, in parts of the scale, of the deviation from the reference and from its longest steps.
+  double worst = 0;     ///< Largest deviation relative to the tolerance from the reference's doubt and the accuracy: <= 1 is agreement.
+  double deviation = 0; ///< The same deviation relative to the record's scale.
+  std::string where;    ///< Its record, time and both values.
+  double judged = 0;    ///< Fraction of the values that are judged.
+  std::string unjudged; ///< A record without any judged value; "" if there is none.
+  /// Root mean square deviations, relative to the scale, from the reference and from its run with the longest steps.
   double from_fine = 0, from_coarse = 0;
 };
 

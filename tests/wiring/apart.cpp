@@ -18,7 +18,7 @@ namespace {
 struct Child {
   int number;
   pid_t process;
-  int output;  ///< the end of a pipe that it writes to
+  int output;  ///< The end of the pipe to which the child writes.
   std::string text;
 };
 
@@ -26,7 +26,7 @@ struct Child {
   const auto limit = static_cast<rlim_t>(apart.seconds);
   const rlimit limits{limit, limit + 1};
   setrlimit(RLIMIT_CPU, &limits);
-  // A crash is reported by what started this process, not by a handler that it has inherited.
+  // The parent reports a crash, not an inherited signal handler.
   for (const int fatal : {SIGSEGV, SIGABRT, SIGFPE, SIGILL, SIGBUS}) std::signal(fatal, SIG_DFL);
   int status = 1;
   std::string text;
@@ -58,7 +58,7 @@ Child started(const Apart& apart, int number) {
   return {number, process, ends[0], ""};
 }
 
-/// Takes what there is; false at the end.
+/// Reads the available output. Returns false at its end.
 bool read_some(Child& child) {
   char buffer[4096];
   const ssize_t n = read(child.output, buffer, sizeof buffer);

@@ -77,7 +77,7 @@ class Maker {
       Wiring w;
       w.graph = random_graph(random);
       w.types = random_types(random, w.graph.branches.size());
-      // Two gears may hold the nodes of the smallest graphs altogether.
+      // In the smallest graphs two gears could fix all nodes.
       for (int gears = w.graph.nodes > 5 ? 1 + k % 2 : 1; gears > 0; --gears) w.types[static_cast<std::size_t>(random.below(static_cast<int>(w.types.size())))] = "gear";
       if (k % 4 == 0) w.types[static_cast<std::size_t>(random.below(static_cast<int>(w.types.size())))] = "stop";
       w.name = "gear " + described(w.graph, w.types);
@@ -113,12 +113,12 @@ class Maker {
 
   void add_random(Wiring w, Random& random, int k) {
     std::vector<char> masses(node_count(w.graph), 0);
-    // A third without, a third with all, a third with some.
+    // A third of the scenes without masses, a third with a mass at each node, a third with some.
     for (char& m : masses) m = k % 3 == 2 ? random.below(2) == 0 : k % 3 == 1;
     add(std::move(w), std::move(masses), Drive(random.below(4)));
   }
 
-  /// With a mass at each node.
+  /// Adds a wiring with a mass at each node.
   void add_heavy(Wiring w, Random& random) {
     constexpr std::array<Drive, 3> drives{Drive::velocity, Drive::position, Drive::force_on_mass};
     std::vector<char> masses(node_count(w.graph), 1);

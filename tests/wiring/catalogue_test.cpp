@@ -1,4 +1,4 @@
-// The catalogue holds the scenes that it says, and judges by bounds that can be worked out by hand.
+// The catalogue has the documented scenes, and its bounds agree with values computed by hand.
 #include "tests/wiring/catalogue.hpp"
 
 #include <doctest/doctest.h>

@@ -19,15 +19,15 @@ namespace rheonet::test {
 
 namespace {
 
-// Times the accuracy asked for. Two runs are each within 1 of the truth by what the simulator promises.
+// Tolerances as multiples of the accuracy. The simulator promises that each run is within 1 of the exact solution.
 constexpr double of_energy = 10, of_accuracy = 20;
 constexpr double slip_rounding = 1e-12;
-// Two ends of a scene that cannot go on, of its length.
+// Allowed difference between the ends of two refused runs, as a fraction of the run's length.
 constexpr double same_end = 1e-4;
-// A record this much smaller than the largest of its kind is 0 but for rounding; m | m/s | N: where all of a kind is.
+// A record below the fraction `nothing` of the largest of its kind is 0 except for round-off. `least`: smallest scale [m | m/s | N].
 constexpr double nothing = 1e-6, least = 1e-3;
-// One that is smaller by this comes of what hardly happens at all, a slip of nanometres at the peak of a force say, which
-// depends on the last of the digits that were asked for: it is judged by a run with more of them.
+// Records below the fraction `little` of the largest of their kind come from tiny motions, such as a slip of nanometres at the peak of a
+// force, which depend on the last digits of the accuracy. A run with an accuracy tighter by the factor `finer` judges these.
 constexpr double little = 1e-4, finer = 1e-3;
 
 double parameter(const SceneElement& e, const std::string& name) {
@@ -39,13 +39,13 @@ double parameter(const SceneElement& e, const std::string& name) {
 /// Refusals for a physical reason, which the comparison with the reference judges.
 bool expected(const std::string& refusal) { return says(refusal, overload) || says(refusal, blocked) || says(refusal, jammed); }
 
-/// "" or what is wrong with the energy account of a whole run.
+/// Judges the energy account of a whole run. Returns "" or the error.
 std::string wrong_energy(const Scene& scene, const Summary& whole) {
   const double allowed = of_energy * scene.accuracy * whole.largest;
   if (!(std::abs(whole.missing) <= allowed)) {
     return fmt::format("energy: {:.3g} J of {:.3g} J missing", whole.missing, whole.largest);
   }
-  // What is dissipated never comes back: a run of half the length has dissipated no more.
+  // Dissipated energy never decreases: a run of half the length has dissipated no more.
   Scene first = scene;
   first.output_intervals /= 2;
   first.stop = scene.start + scene.output_every * static_cast<double>(first.output_intervals);
@@ -57,7 +57,7 @@ std::string wrong_energy(const Scene& scene, const Summary& whole) {
   return "";
 }
 
-/// "" or where friction is beyond its bounds.
+/// Judges the bounds of friction. Returns "" or the place of a violation.
 std::string wrong_friction(const Scene& scene, const RunTable& rows) {
   for (const SceneElement& e : scene.elements) {
     const std::string& type = declarations()[static_cast<std::size_t>(e.declaration)]->type;
@@ -75,9 +75,9 @@ std::string wrong_friction(const Scene& scene, const RunTable& rows) {
       // Bounds that vary are computed once here and once there, and instants of sticking are as exact as the accuracy.
       const double varies = e.signals.empty() ? 0 : 1e-12 * Fs;
       const double rounding = type == "cfm" ? of_accuracy * scene.accuracy * Fc : e.signals.empty() ? 0 : of_accuracy * scene.accuracy * std::max(1.0, Fs);
-      // What slips has its force of sliding; where a spring carries the same, to the rounding of that.
+      // A slipping slider has its Coulomb force, to the round-off of a spring that carries the same force.
       const bool slides = Fc == 0 ? f == 0 : f * w > 0 && std::abs(f) <= Fc + varies && std::abs(f) >= Fc * (1 - slip_rounding) - varies;
-      // What is about to slip may exceed its bound by the rounding of a balance: its force follows from its neighbours.
+      // A slider about to slip may exceed its bound by the round-off of a balance: its force follows from its neighbours.
       if (slips ? slides : std::abs(f) <= Fs * (1 + slip_rounding) + rounding) continue;
       return fmt::format("friction: {} of {:.17g} at t = {:.6g}, where its velocity is {:.3g}, bound {:.17g}",
                          e.name, f, rows.time()[i], w, slips ? Fc : Fs);
@@ -86,13 +86,13 @@ std::string wrong_friction(const Scene& scene, const RunTable& rows) {
   return "";
 }
 
-/// The worst difference between a run and the same one seen differently, in parts of the scale, and where; and when there
-/// first is one beyond what is allowed.
+/// The largest difference between a run and the same run in another view, relative to the scale, with its place, and the time of the first
+/// difference beyond the tolerance.
 struct Difference {
   double worst = 0;
   std::string where;
   double first = std::numeric_limits<double>::infinity();
-  bool of_little = true;  ///< nothing but records that are little beside others of their kind are beyond it
+  bool of_little = true;  ///< Only records below the fraction `little` of their kind exceed the tolerance.
 };
 
 std::string channel_of(const std::string& path) {
@@ -111,7 +111,7 @@ Difference difference(const View& view, const RunTable& original, const RunTable
     const std::vector<double>&from = original[column.original], &to = seen[column.path];
     const std::size_t count = std::min(from.size(), to.size());
     double scale = nothing * largest[channel_of(column.original)];
-    // That of the quantity as it is seen: a moving frame adds to it.
+    // The scale of the quantity in this view: a moving frame adds to it.
     for (double x : to) scale = std::max(scale, std::abs(x / column.factor));
     for (std::size_t i = 0; i < count; ++i) {
       const double back = (to[i] - column.offset - column.rate * seen.time()[i]) / column.factor;
@@ -129,7 +129,7 @@ Difference difference(const View& view, const RunTable& original, const RunTable
   return result;
 }
 
-/// The same of a run that is so much more accurate.
+/// The same for a run with an accuracy tighter by the factor `finer`.
 Difference finer_difference(const View& view, const Scene& scene) {
   Scene original = scene, other = view.scene;
   original.accuracy = other.accuracy = finer * scene.accuracy;
@@ -138,7 +138,7 @@ Difference finer_difference(const View& view, const Scene& scene) {
   return difference(view, run.rows, seen.rows, of_accuracy * original.accuracy);
 }
 
-/// "" or what is wrong with how a view ends.
+/// Judges the end of a run in another view. Returns "" or the error.
 std::string wrong_end(const View& view, const Scene& scene, const std::string& refusal, const std::string& seen) {
   if (refusal.empty() != seen.empty()) return refusal.empty() ? "refused: " + seen : "not refused";
   if (refusal.empty()) return "";
@@ -148,10 +148,10 @@ std::string wrong_end(const View& view, const Scene& scene, const std::string& r
   return same ? "" : fmt::format("refused otherwise: {}, but {}", refusal, seen);
 }
 
-/// The laws leave open how the scene goes on from some time before this: any of many solutions is right.
+/// Whether the laws do not determine the motion from some time before t: then many solutions are correct.
 bool open_before(const Scene& scene, double t) { return integrate_reference(scene, declarations(), {}).fork <= t; }
 
-/// A run beside the views of it.
+/// Compares a run with its views.
 Judgement judge_views(const Scene& scene, const Attempt& run, const std::vector<View>& views, Judgement result) {
   for (const View& view : views) {
     const Attempt seen = attempt(view.scene);

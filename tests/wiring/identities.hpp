@@ -5,13 +5,12 @@
 
 namespace rheonet::test {
 
-/// What holds for every network, whatever its solution: the energy account closes and nothing gives back what was
-/// dissipated, friction stays within its bounds, and the same experiment seen differently (seen_differently.hpp) gives the
-/// same trajectory. `refused` where the run ended early, and then so in every view.
+/// Identities that hold for every network: the energy account closes, dissipated energy never decreases, friction stays within its bounds,
+/// and the same experiment in another view (seen_differently.hpp) gives the same trajectory. The verdict is `refused` if the run ended early,
+/// and it must end early in every view.
 Judgement check_identities(const Wiring& wiring);
 
-/// What is left out changes nothing: each reduction by itself gives the trajectory that there is without any, of all records and of a
-/// few of them.
+/// Reductions do not change the solution: each reduction alone gives the same trajectory as none, for all records and for a few of them.
 Judgement check_reductions(const Wiring& wiring);
 
 }  // namespace rheonet::test

@@ -17,15 +17,15 @@ namespace rheonet::test {
 
 namespace {
 
-// Less than this share of sure values decides nothing.
+// Smallest fraction of certain values for a verdict.
 constexpr double enough = 0.5;
-// Both ends of a scene that cannot go on lie this near to each other, of its length: some steps of the reference.
+// Allowed difference between the ends of a refused run and of the reference, as a fraction of the run's length: some steps of the reference.
 constexpr double same_end = 3e-3;
-// A slope of the deviation from the reference over its step can be told above this, of the scale. (Where its longest steps are as
-// near already, what its shortest are off by is rounding, within its own estimate.)
+// The dependence of the deviation on the reference's step is significant above this fraction of the scale. (If its longest steps are already
+// as close, the deviation of its shortest steps is round-off, within its own estimate.)
 constexpr double told = 1e-5;
 
-/// What the bounds of the forces say against the reference itself; "" if they agree.
+/// Contradiction between the bounds of the forces and the reference; "" if they agree.
 std::string contradiction(const Scene& scene, const ReferenceSolution& reference) {
   const double slack = same_end * (scene.stop - scene.start);
   const std::optional<double> might = first_above(scene, &Capacity::sliding, 1 - 1e-6);
@@ -39,13 +39,13 @@ std::string contradiction(const Scene& scene, const ReferenceSolution& reference
   return "";
 }
 
-/// The bound on the forces alone shows that the scene cannot go on where the run was refused for that.
+/// Whether the run was refused for an overload, and the capacity alone shows that the scene cannot continue there.
 bool beyond_bounds(const Scene& scene, const std::string& refusal) {
   const std::optional<double> must = first_above(scene, &Capacity::sticking, 1 + 1e-6);
   return must && says(refusal, overload) && std::abs(time_in(refusal) - *must) <= same_end * (scene.stop - scene.start);
 }
 
-/// What is wrong with how the run ended; "" if it did as the reference.
+/// Judges the end of the run. Returns "" if it ended like the reference, else the error.
 std::string wrong_end(const Scene& scene, const std::string& refusal, const ReferenceSolution& reference) {
   if (reference.complete) return refusal.empty() ? "" : "refused: " + refusal;
   const std::string expected = fmt::format("{} at {:.6g} s", overload.name, reference.end);
@@ -100,13 +100,13 @@ Judgement judge(const Wiring& wiring, bool closer) {
   const Attempt run = attempt(scene);
   Judgement result;
   if (says(run.refusal, jammed)) return {.verdict = Verdict::refused, .text = run.refusal};
-  // How sticking sliders share a load the reference does not know; balance and least norm do.
+  // The reference does not determine how sticking sliders share a load; balance and least norm do.
   result.text = wrong_sticking(scene, run.rows);
   if (!result.text.empty()) return result;
   for (const int more : {closer ? 4 : 0, 2, 4}) {
     ReferenceSettings settings;
     settings.halvings += more;
-    // What did not do is not to be taken for good again.
+    // A retry needs a tighter target, otherwise it would accept the same solution.
     if (more > 0) settings.target *= 1e-2;
     result = beside(scene, run, integrate_reference(scene, declarations(), settings));
     const bool refused_without_need = !run.refusal.empty() && !says(run.refusal, overload);

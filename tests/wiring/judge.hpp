@@ -7,24 +7,24 @@
 namespace rheonet::test {
 
 enum class Verdict {
-  agrees,     ///< with the reference
-  refused,    ///< as physics demands, and up to then it agrees
-  open,       ///< agrees up to where the laws leave open how it goes on
-  undecided,  ///< the reference doubts too much of its own values
+  agrees,     ///< Agrees with the reference.
+  refused,    ///< Refused as physics demands; agrees up to then.
+  open,       ///< Agrees up to the time from which the laws do not determine the motion.
+  undecided,  ///< The reference doubts too many of its own values.
   wrong,
 };
 
 struct Judgement {
   Verdict verdict = Verdict::wrong;
-  double deviation = 0;  ///< the worst, of a record's scale
-  double judged = 0;     ///< share of the values that the reference is sure of
+  double deviation = 0;  ///< Largest deviation, as a fraction of the record's scale.
+  double judged = 0;     ///< Fraction of the values of which the reference is certain.
   int reference_steps = 0;
-  std::string text;      ///< where the worst deviation is; what is wrong
+  std::string text;      ///< Place of the largest deviation, or the error.
 };
 
-/// Runs the scene, integrates it independently, and compares. Where the two do not agree the reference takes shorter steps,
-/// down to a 256th of those that it begins with: a motion that just touches a reversal escapes a longer step, and its
-/// estimate of its error. `closer`: both with more effort, to see which of them is nearer to the truth.
+/// Runs the scene, integrates it independently, and compares. If they do not agree, the reference takes shorter steps, down to a 256th of its
+/// first ones: longer steps, and their error estimate, can miss a motion that just touches a reversal. `closer`: computes both with more
+/// effort, to see which is closer to the exact solution.
 Judgement judge(const Wiring& wiring, bool closer = false);
 
 }  // namespace rheonet::test

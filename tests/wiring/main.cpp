@@ -65,7 +65,7 @@ int go(const Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  // What is shared with the tests asserts with doctest's macros.
+  // Code shared with the tests uses doctest's assertions, which need a context.
   doctest::Context context;
   context.setAsDefaultForAssertsOutOfTestCases();
   Options options;

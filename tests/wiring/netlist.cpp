@@ -19,7 +19,7 @@ double one_of(Random& random, const std::array<double, n>& values) {
   return values[static_cast<std::size_t>(random.below(static_cast<int>(n)))];
 }
 
-/// The parameters of a law, as they stand in a netlist, in SI.
+/// The parameters of a law as text for a netlist, in SI.
 std::string parameters(Random& random, const std::string& type) {
   std::string text;
   const auto add = [&](const char* name, double value) { text += fmt::format(", {} = {}", name, value); };
@@ -41,7 +41,7 @@ std::string parameters(Random& random, const std::string& type) {
   return text;
 }
 
-/// Ratio and support of a gear. Between a node and ground it needs a support that moves, or it holds the node.
+/// Ratio and support of a gear. A gear between a node and ground needs a moving support, otherwise it fixes the node.
 std::string gear(Random& random, const Graph& graph, const Graph::Branch& ends) {
   std::string text = fmt::format(", ratio = {}", random.sign() * random.around(1, 2.5));
   std::vector<int> others;
@@ -57,7 +57,7 @@ std::string periodic(const char* shape, double amplitude, double frequency) {
   return fmt::format("{{ {} = {}, frequency = {} }}", shape, amplitude, frequency);
 }
 
-/// Straight lines between points, from `first` at 0, with extremes on alternating sides; `jumps`: one of them is a step.
+/// A piecewise linear table from `first` at 0, with extremes of alternating sign; `jumps`: one segment is a step.
 std::string table(Random& random, double amplitude, double first, double stop, bool jumps) {
   std::string points = fmt::format("[0, {}]", first);
   const int count = 5;
@@ -74,7 +74,7 @@ std::string signal(Random& random, Wiring::Drive drive, double stop) {
   const double frequency = random.uniform(1.5, 3) / stop, sign = random.sign();
   const int shape = random.below(5);
   if (drive == Wiring::Drive::position) {
-    // No steps: what they do to dashpots is another matter.
+    // No steps: a dashpot would respond to a step of a position with an impulse.
     const double reach = sign * random.around(0.12, 2);
     if (shape < 2) return periodic("sine", reach, frequency);
     if (shape < 4) return periodic("triangle", reach, frequency);
@@ -92,7 +92,7 @@ std::string signal(Random& random, Wiring::Drive drive, double stop) {
 
 namespace {
 
-/// A bound that varies, about `size`, and may fall below 0.
+/// A varying bound of about `size`, which may fall below 0.
 std::string bound(Random& random, double size, double stop) {
   const double mean = size * random.uniform(0.3, 1.2), swing = size * random.uniform(0.3, 1) * random.sign(), frequency = random.uniform(1, 3) / stop;
   const int shape = random.below(4);
@@ -137,7 +137,7 @@ std::string netlist_of(const Wiring& wiring, const Graph& graph) {
                       signal(random, wiring.drive, stop));
   for (std::size_t k = 0; k < wiring.types.size(); ++k) {
     const bool varies = wiring.types[k] == "brake";
-    // Two sliders that hold a gear break away together. The reference lets each go at a bound of its own.
+    // Two sliders that hold a gear break away together, but in the reference each breaks away at its own bound.
     const bool plain = std::find(wiring.types.begin(), wiring.types.end(), "gear") != wiring.types.end();
     std::string values = varies ? brake(random, stop) : wiring.types[k] == "gear" ? gear(random, graph, graph.branches[k]) : parameters(random, wiring.types[k]);
     if (plain) values = values.substr(0, values.find(", breakaway"));

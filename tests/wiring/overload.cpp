@@ -14,7 +14,7 @@ namespace {
 
 const Declaration& declared(const SceneElement& e) { return *declarations()[static_cast<std::size_t>(e.declaration)]; }
 
-/// The largest forces that an element takes, either way [N].
+/// The largest forces that an element can carry in both directions [N].
 struct Carries { double forward, backward; };
 Carries carries(const SceneElement& e, bool sticking, double t) {
   if (declared(e).type == "freewheel") return {0, INFINITY};
@@ -36,7 +36,7 @@ const SceneElement* push_of(const Scene& scene) {
   return found == scene.elements.end() ? nullptr : &*found;
 }
 
-/// The least sum, over all sets of nodes that the push may move alone, of what the elements that leave the set carry.
+/// Minimum cut: the least capacity of the elements that leave a set of nodes, over all sets that the force could move on their own.
 double least_cut(const Scene& scene, NodeId pushed, bool sticking, double t, int direction) {
   const std::size_t nodes = scene.nodes.size();
   std::vector<char> held(nodes, 0);

@@ -6,14 +6,14 @@
 
 namespace rheonet::test {
 
-/// Whether the elements of a scene can carry the force that is applied at a node, by the least cut between that node and
-/// what has inertia or is held: friction carries its Coulomb force, all else any force (max-flow min-cut: Ford and
-/// Fulkerson 1956; limit load of plastic frames: Drucker, Prager and Greenberg 1952).
+/// The largest force at a node that the elements of a scene can carry: the minimum cut between the node and all nodes with inertia or a
+/// prescribed motion. Friction carries its Coulomb force, any other element an arbitrary force (max-flow min-cut: Ford and Fulkerson 1956;
+/// limit load of plastic frames: Drucker, Prager and Greenberg 1952).
 struct Capacity {
-  double sliding;   ///< least cut [N] with every slider at `coulomb`: up to there the load is certainly carried
-  double sticking;  ///< with every slider at `breakaway`: beyond, it is certainly not
+  double sliding;   ///< Minimum cut with every slider at `coulomb`: loads up to here are certainly carried [N].
+  double sticking;  ///< The same with every slider at `breakaway`: loads beyond are certainly not carried [N].
 };
-/// At time t, for a force in the positive (1) or the negative direction (-1). Absent without an applied force.
+/// The capacity at time t, for a force in the positive (1) or the negative direction (-1). Absent without an applied force.
 std::optional<Capacity> capacity_of(const Scene& scene, double t, int direction = 1);
 
 /// The first time within the run at which the force applied exceeds `factor` times its capacity; absent if it never does.

@@ -20,7 +20,7 @@ TEST_CASE("wirings: the power of an element is stored or dissipated") {
       check_storage(scene, rows, 2e-5);
       check_supply(scene, rows, 100 * accuracy);
       ++simulated;
-    } catch (const SimulationError&) {  // the wiring has no motion under this drive
+    } catch (const SimulationError&) {  // The wiring cannot be simulated with this drive.
     }
   }
   CHECK(simulated >= at_least);

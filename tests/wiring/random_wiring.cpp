@@ -44,7 +44,7 @@ bool series_parallel(Graph graph) {
       branches[there[0]] = {other(branches[there[0]]), other(branches[there[1]])};
       branches.erase(branches.begin() + std::ptrdiff_t(there[1]));
       changed = true;
-      break;  // the new branch may lie beside another, which goes first
+      break;  // The new branch may be parallel to another, and parallel branches are merged first.
     }
   }
   return branches.size() == 1;

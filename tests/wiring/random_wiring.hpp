@@ -16,8 +16,8 @@ std::vector<std::string> random_types(Random& random, std::size_t count);
 /// Groups of alternating kinds, of two members or more.
 Tree random_tree(Random& random, int leaves);
 
-/// A connected graph in which every branch lies on a path from the driven node to ground, and that no reduction of
-/// series and parallel branches takes to a single one.
+/// A connected graph in which every branch is on a path from the driven node to ground, and that cannot be reduced to a single branch by
+/// merging series and parallel branches.
 Graph random_graph(Random& random);
 
 /// As `spring end-n1, slider n1-ground`.

@@ -5,15 +5,15 @@
 
 namespace rheonet::test {
 
-/// A reason for which a scene of the wiring test has no answer, or none beyond some time. This is the whole list: any other
-/// refusal is a fault. README.md says more.
+/// A physical reason for which a scene of the wiring test has no solution, or none beyond some time. This list is complete: any other
+/// refusal is a fault. See README.md.
 struct Refusal {
   const char* name;
-  const char* reason;                ///< the physics of it
-  std::array<const char*, 2> words;  ///< what the message says, either of these
+  const char* reason;                ///< Physical reason.
+  std::array<const char*, 2> words;  ///< The message contains one of these texts.
 };
 
-/// A force upon a node without mass that friction alone holds.
+/// A force on a massless node that only friction holds.
 inline constexpr Refusal overload{
     "a force beyond what friction can take",
     "Every way from the node to something with inertia or to a support leads through friction whose Coulomb forces add up "
@@ -21,7 +21,7 @@ inline constexpr Refusal overload{
     "displacement, and no mass. The velocity would be infinite.",
     {"nothing resists the force", "every element there has come to a constant force"}};
 
-/// Prescribed motions through a freewheel, with nothing in between that gives way.
+/// Prescribed motions at a freewheel, without a compliant element in between.
 inline constexpr Refusal blocked{
     "a motion that a freewheel forbids",
     "Prescribed motions turn the ends of a freewheel backwards against each other. No force ends that.",
@@ -35,7 +35,7 @@ inline constexpr Refusal jammed{
 
 bool says(const std::string& message, const Refusal& refusal);
 
-/// The time that a message gives [s]; NaN if it gives none.
+/// The time in a message [s]; NaN if there is none.
 double time_in(const std::string& message);
 
 }  // namespace rheonet::test

@@ -71,14 +71,14 @@ View from_moving_frame(Scene scene, double v) {
       (r.channel == Record::Channel::velocity ? view.columns[k].offset : view.columns[k].rate) = v;
     }
   }
-  // What was fixed to the ground is fixed to something that stands still, and can move.
+  // The elements at ground are moved to a node that stands still but could move.
   const NodeId base = static_cast<NodeId>(scene.nodes.size());
   scene.nodes.push_back({.name = "base", .spot = {}});
   for (SceneElement& e : scene.elements) {
     if (e.a == ground) e.a = base;
     if (!e.at && e.b == ground) e.b = base;
     if (components()[static_cast<std::size_t>(e.declaration)]->ratio && e.support == ground) e.support = base;
-    // A mass that is not said to move starts at rest.
+    // A mass without a start velocity starts at rest.
     if (declarations()[static_cast<std::size_t>(e.declaration)]->type == "mass") {
       scene.nodes[static_cast<std::size_t>(e.a)].velocity = 0;
     }
@@ -96,7 +96,7 @@ View from_moving_frame(Scene scene, double v) {
 View reversed(const Wiring& wiring) {
   View view{.name = "groups in reverse order", .scene = scene_of(netlist_of(wiring, wired(commuted(*wiring.tree)))), .columns = {}};
   for (View::Column& column : same_columns(view.scene)) {
-    // Nodes between the elements are others.
+    // Inner nodes are different in this view.
     if (column.path[0] != 'n') view.columns.push_back(std::move(column));
   }
   return view;

@@ -14,7 +14,7 @@ namespace rheonet::test {
 
 namespace {
 
-// Times the accuracy asked for: each of the forces at a node is within 1 of the truth by what the simulator promises.
+// Tolerance as a multiple of the accuracy. The simulator promises that each force at a node is within 1 of the exact force.
 constexpr double of_accuracy = 20;
 // Round-off of the potentials of a few nodes, as a share of the largest force.
 constexpr double potential_rounding = 1e-11;
@@ -22,13 +22,13 @@ constexpr double potential_rounding = 1e-11;
 struct Force {
   const SceneElement* element;
   const std::vector<double>* column;
-  bool gear, applied;  ///< by the element to the node, which is counted the other way
-  const std::vector<double>* velocity = nullptr;  ///< of one that sticks
+  bool gear, applied;  ///< `applied`: the element exerts the force on the node, so that it counts with the opposite sign.
+  const std::vector<double>* velocity = nullptr;  ///< Of an element that can stick.
 };
 
-/// What a force may be.
+/// Range of a force.
 struct Range { double low, high; };
-/// While it sticks, and while it slips one way and the other.
+/// The ranges of a slider's force while it sticks and while it slips.
 struct Ranges { Range sticking, sliding; };
 
 Ranges ranges_of(const SceneElement& e, double t) {
@@ -60,7 +60,7 @@ std::string wrong_sticking(const Scene& scene, const RunTable& rows) {
     for (const double f : *force.column) largest = std::max(largest, std::abs(f));
   }
   const int nodes = static_cast<int>(scene.nodes.size());
-  std::vector<char> held(scene.nodes.size(), 0);  // takes any force
+  std::vector<char> held(scene.nodes.size(), 0);  // Whether the node can take any force.
   held[0] = 1;
   for (const Force& force : forces) {
     if (declarations()[static_cast<std::size_t>(force.element->declaration)]->type == "motion") held[static_cast<std::size_t>(force.element->a)] = 1;
@@ -77,11 +77,11 @@ std::string wrong_sticking(const Scene& scene, const RunTable& rows) {
       sum[static_cast<std::size_t>(e.a)] += counted;
       if (!e.at) sum[static_cast<std::size_t>(e.b)] -= ratio * counted;
       sum[static_cast<std::size_t>(e.support)] += (ratio - 1) * counted;
-      // One that begins to slip under its force of sliding has no velocity yet.
+      // A slider that begins to slip at its Coulomb force has no velocity yet.
       const double next = !force.velocity || row + 1 == rows.time().size() ? 0 : (*force.velocity)[row + 1];
       if (!force.velocity || (*force.velocity)[row] != 0) continue;
       const auto [sticking, sliding] = ranges_of(e, rows.time()[row]);
-      // Bounds that vary are computed once here and once there.
+      // Varying bounds are computed separately here and in the simulator.
       const double rounding = e.signals.empty() ? 0 : 1e-12 * std::max(std::abs(sliding.low), sliding.high);
       const bool forward = std::abs(f - sliding.high) <= rounding && (sticking.high > sliding.high || next > 0);
       const bool backward = std::abs(f - sliding.low) <= rounding && (sticking.low < sliding.low || next < 0);
@@ -92,7 +92,7 @@ std::string wrong_sticking(const Scene& scene, const RunTable& rows) {
         return fmt::format("{} of {:.17g} at t = {:.6g} sticks beyond its bounds of {:.17g} and {:.17g}", e.name, f, rows.time()[row],
                            sticking.low, sticking.high);
       }
-      // One that is about to slip may be beyond its bound by what finds the event, and bounds that vary are rounded.
+      // A slider about to slip may exceed its bound by the margin of the event's guard, and varying bounds have round-off.
       const double grain = e.signals.empty() ? 0 : potential_rounding * largest;
       branches.push_back({free(e.a), free(e.b), f <= sticking.low + grain ? f : sticking.low, f >= sticking.high - grain ? f : sticking.high});
       least.push_back(f);

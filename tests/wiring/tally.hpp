@@ -11,10 +11,10 @@
 
 namespace rheonet::test {
 
-/// What came of many scenes.
+/// Verdicts on many scenes.
 struct Tally {
-  std::array<int, 5> count{};  ///< of each verdict
-  std::vector<std::string> wrong, undecided;  ///< a line each
+  std::array<int, 5> count{};  ///< Number of scenes for each verdict.
+  std::vector<std::string> wrong, undecided;  ///< One line for each scene.
   double cpu_seconds = 0;
   int of(Verdict verdict) const { return count[static_cast<std::size_t>(verdict)]; }
 };

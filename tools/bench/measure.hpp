@@ -23,13 +23,13 @@ inline double median(std::vector<double> values) {
   return n % 2 == 1 ? values[n / 2] : (values[n / 2 - 1] + values[n / 2]) / 2;
 }
 
-/// What a task in a process of its own gave.
+/// Result of a task in a separate process.
 struct Outcome {
-  std::vector<double> values;  ///< what the task returned; empty if it did not end
-  double megabytes = 0;        ///< the most that the process had in memory
+  std::vector<double> values;  ///< Values that the task returned; empty if it did not end in time.
+  double megabytes = 0;        ///< Peak memory of the process [MB].
 };
 
-/// Does a task in a process of its own, so that its memory is its own, and ends it after so many seconds.
+/// Runs a task in a separate process, so that its memory can be measured, and kills it after `seconds`.
 inline Outcome alone(unsigned seconds, const std::function<std::vector<double>()>& task) {
   int ends[2];
   if (::pipe(ends) != 0) return {};

@@ -1,5 +1,5 @@
-// What a scene costs from its netlist, beside a program for IDA that is written by hand for that scene: CPU time at the
-// same error. Each figure is the median of runs of both, taken in turns in one process.
+// Compares the CPU time of a netlist with that of a hand-written IDA program for the same scene at the same error. Each figure is the
+// median of alternating runs in one process.
 //
 //   bench_pairs [-o FILE.csv] [--quick] [SCENE ...]  tables, of maxwell, stick-slip, ladder, iwan; --quick: small ones
 //   bench_pairs --once SCENE hand|netlist TOLERANCE TIMES      runs one, to count its instructions
@@ -69,7 +69,7 @@ struct Cost {
   long steps = 0;
 };
 
-/// What an error costs: between those measured on straight lines of the logarithms; the cheapest setting that is no worse counts.
+/// The cost of an error, interpolated between the measurements on logarithmic axes. The cheapest setting with at most this error counts.
 std::optional<double> cost_of(std::vector<Cost> costs, double error) {
   std::sort(costs.begin(), costs.end(), [](const Cost& a, const Cost& b) { return a.error < b.error; });
   std::optional<double> found;

@@ -4,7 +4,7 @@
 
 namespace rheonet::bench {
 
-/// Netlists of the benchmark. Those that a program in hand/ has too are the same scene with the same numbers.
+/// Netlists of the benchmark. A program in hand/ of the same name has the same numbers.
 std::string maxwell();
 std::string stick_slip();
 /// Masses in a chain of springs and dashpots, pushed at the free end; made by `repeat`.
@@ -17,7 +17,7 @@ std::string iwan(int pairs);
 std::string couette(int layers);
 /// A random tree of series and parallel groups of so many springs and dashpots, one end driven.
 std::string tree(int elements);
-/// A square of side x side masses on sliders, neighbours joined by springs and dashpots, one edge pulled to and fro.
+/// A square of side x side masses on sliders. Springs and dashpots connect neighbours; one edge is driven back and forth.
 std::string grid(int side);
 
 }  // namespace rheonet::bench

@@ -1,9 +1,9 @@
-// What scenes cost that grow: reading, simulating, memory, against their size; each in a process of its own.
+// Measures time to read, time to simulate and memory over the size of a scene, each in a separate process.
 //
 //   bench_sizes [-o FILE.csv] [--quick | --large] [--limit SECONDS] [SCENE ...]
 //
-// Scenes: ladder, whole-ladder (with what nothing reaches, as written-out), hand-ladder, iwan, hand-iwan, couette, tree, grid,
-// written-out. --large goes up to a million masses, and to the grid of 100 x 100; --quick takes the two smallest of each.
+// Scenes: ladder, whole-ladder (which keeps the parts that no motion reaches, like written-out), hand-ladder, iwan, hand-iwan, couette,
+// tree, grid, written-out. --large goes up to a million masses and to a grid of 100 x 100. --quick takes the two smallest sizes of each.
 
 #include <cstring>
 
@@ -19,11 +19,11 @@ using namespace rheonet::bench;
 
 struct Family {
   std::string name;
-  std::vector<int> sizes, large;  ///< these besides, if they are asked for
-  std::string (*netlist)(int size);  ///< nullptr: written by hand
+  std::vector<int> sizes, large;  ///< `large`: additional sizes for --large.
+  std::string (*netlist)(int size);  ///< nullptr: a hand-written program.
   hand::Run (*by_hand)(int size, double tolerance, const std::vector<double>& times);
-  double stop;  ///< of what is written by hand [s]
-  std::vector<std::string> keep = {};  ///< reductions that are not made
+  double stop;  ///< End time of the hand-written program [s].
+  std::vector<std::string> keep = {};  ///< Reductions that are switched off.
 };
 
 const Family families[] = {

@@ -17,21 +17,21 @@ tool::Arguments::Plot plot_options(const py::kwargs& keywords);
 /// A figure of the rows of a run.
 struct Figure {
   struct Curve {
-    std::string name, x, y;  ///< x and y: columns
+    std::string name, x, y;  ///< `x` and `y` are columns.
   };
   std::string svg;
   std::vector<Curve> curves;
   bool logarithmic_x = false, logarithmic_y = false, magnitudes = false;
-  std::vector<std::string> notes;  ///< what was left out
+  std::vector<std::string> notes;  ///< On everything that was left out.
 };
 
 /// Draws as `rheonet plot` does. Throws plot::Mistake.
 Figure draw(const Run& run, const std::string& name, const tool::Arguments::Plot& options);
 
-/// The bytes of a PNG. Raises OSError if there is no program that makes it.
+/// The bytes of a PNG. Raises OSError if no converter is installed.
 py::bytes png_of(const std::string& svg);
 
-/// The HTML of `rheonet report`, and what went wrong in its scenes. Raises RuntimeError if rheonet was built without the page.
+/// The HTML of `rheonet report`, and the failures of its scenes. Raises RuntimeError if rheonet was built without the page.
 py::tuple report(const std::vector<const Reading*>& readings, std::optional<double> accuracy, const std::string& title, bool certify, bool precision,
                  const py::object& progress);
 

@@ -12,15 +12,15 @@
 
 namespace rheonet::python {
 
-/// How a scene is simulated.
+/// Options of a simulation.
 struct RunWanted {
-  std::optional<double> accuracy = {};  ///< in place of the scene's
+  std::optional<double> accuracy = {};  ///< Overrides the accuracy of the scene.
   bool certified = false;
   int threads = 1;
-  bool both_sides = false;  ///< rows at both sides of each event too, as a figure needs them
+  bool both_sides = false;  ///< Add rows at both sides of each event, for a figure.
 };
 
-/// A netlist that has been read: the scene, or the mistakes in it.
+/// A netlist that has been read: the scene, or its mistakes.
 class Reading {
  public:
   Reading(std::string file, ReadResult result);
@@ -30,7 +30,7 @@ class Reading {
   const Scene& scene() const { return *scene_; }
   const Sources& sources() const { return *sources_; }
 
-  /// The reading as the commands have it, with its scene to `accuracy`.
+  /// The result as the commands use it, with the scene's accuracy replaced by `accuracy`.
   ReadResult read_result(std::optional<double> accuracy) const;
 
   py::list diagnostics() const;
@@ -46,15 +46,15 @@ class Reading {
  private:
   std::shared_ptr<const Scene> with_accuracy(std::optional<double> accuracy) const;
 
-  std::string file_;  ///< what the netlist is called
+  std::string file_;  ///< Name of the netlist.
   std::shared_ptr<const Sources> sources_;
-  std::shared_ptr<const Scene> scene_;  ///< nullptr if there is any mistake
+  std::shared_ptr<const Scene> scene_;  ///< nullptr if there is a mistake.
   Presentation presentation_;
   std::vector<Diagnostic> diagnostics_;
 };
 
-/// A netlist before it is read: a file, or a text, for which `file` then stands in messages. Its files are read from disk once, so
-/// that every reading sees the same.
+/// A netlist before it is read: a file, or a text, which messages call `file`. Files are read from disk only once, so that every reading has
+/// the same contents.
 class Source {
  public:
   Source(std::string file, std::optional<std::string> text, std::string folder)
@@ -64,18 +64,18 @@ class Source {
   py::tuple arguments() const { return py::make_tuple(file_, text_, folder_); }
 
   struct Wanted {
-    std::vector<std::string> overrides;                   ///< "PATH=VALUE"
-    std::optional<std::vector<std::string>> measures;     ///< in place of the file's claims, which are about the scene without changes
-    std::vector<std::string> model_folders;               ///< folders that `include` falls back on
-    std::vector<std::string> records;                     ///< in addition to those of the file
-    bool plotted = false;                                 ///< what `[plot]` draws is recorded too
+    std::vector<std::string> overrides;                   ///< "PATH=VALUE".
+    std::optional<std::vector<std::string>> measures;     ///< Replace the claims of the file, which hold for the unmodified scene.
+    std::vector<std::string> model_folders;               ///< Folders that `include` falls back on.
+    std::vector<std::string> records;                     ///< In addition to the records of the file.
+    bool plotted = false;                                 ///< Add the records that `[plot]` draws.
   };
   Reading read(Wanted wanted);
 
  private:
   std::string file_;
   std::optional<std::string> text_;
-  std::string folder_;  ///< of files that a text includes
+  std::string folder_;  ///< Folder of the files that a text includes.
   FileCache cache_;
 };
 

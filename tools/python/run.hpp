@@ -21,20 +21,20 @@ namespace py = pybind11;
 /// The rows, the events and the summary of a run. Each record has a column of its own, which NumPy views without a copy.
 struct Run {
   std::vector<double> times;
-  std::vector<std::vector<double>> columns;  ///< one for each record of the scene
-  std::string events;                        ///< as `rheonet run --events` writes them: CSV with a header
+  std::vector<std::vector<double>> columns;  ///< One for each record of the scene.
+  std::string events;                        ///< CSV with a header, as from `rheonet run --events`.
   Summary summary;
   std::optional<Certificate> certificate;
   std::shared_ptr<const Scene> scene;
   std::shared_ptr<const Sources> sources;
-  PlotTable drawn;                           ///< what the netlist wants drawn
-  std::optional<SimulationError> failure;  ///< why the run ended early; the rows before are there
+  PlotTable drawn;                           ///< The `[plot]` of the netlist.
+  std::optional<SimulationError> failure;  ///< Why the run ended early; the rows up to there are kept.
 };
 
 /// A read-only view of a column, which keeps its owner alive.
 py::array_t<double> view(const std::vector<double>& column, const py::handle& owner);
 
-/// What Python gets: tuples of (time, element, event, direction), and dictionaries.
+/// Results as Python objects: a list of tuples (time, element, event, direction), and dictionaries.
 py::list events_of(const Run& run);
 py::dict summary_of(const Run& run);
 py::object certificate_of(const Run& run);

@@ -20,7 +20,8 @@
 namespace rheonet::python {
 namespace {
 
-/// Calls `work` without the interpreter lock, while this thread looks for Ctrl-C. `sources` of what is simulated at the time of an error.
+/// Calls `work` without the interpreter lock, while this thread checks for Ctrl-C. `sources` returns the sources of the scene that was
+/// simulated when an error occurred.
 void do_watched(const py::object& progress, const std::function<void(Watch&)>& work, const std::function<const Sources&()>& sources) {
   Watch watch(progress);
   std::optional<SimulationError> failure;

@@ -15,19 +15,19 @@
 #include "tools/python/reading.hpp"
 #include "tools/rheonet/comparison.hpp"
 
-/// The studies of the commands `compare`, `effects`, `precision` and `run --sensitivities`, as Python gets them. All raise rheonet.SimulationError if a scene
-/// cannot be simulated, and ValueError for scenes that cannot be compared.
+/// The studies of the commands `compare`, `effects`, `precision` and `run --sensitivities` for Python. They raise rheonet.SimulationError if a
+/// scene cannot be simulated, and ValueError if scenes cannot be compared.
 namespace rheonet::python {
 
-/// Scenes on one time base, and how far each is from the first.
+/// Scenes on one time base, and the difference of each from the first.
 class Comparison {
  public:
-  /// `pairings`: for each the records of all scenes; empty: the records that all share.
+  /// `pairings`: each has a record for each scene; empty: the records that all scenes share.
   Comparison(const std::vector<const Reading*>& readings, std::vector<tool::Pairing> pairings, const py::object& progress);
 
   const std::vector<tool::Pairing>& pairings() const { return compared_.pairings; }
   std::vector<std::string> units() const;
-  /// Of each scene but the first, and of each pairing, keywords of rheonet.Difference.
+  /// Keywords of rheonet.Difference for each scene but the first and each pairing.
   py::list differences() const;
   std::vector<double> dissipated() const;
   py::array_t<double> time() const;
@@ -39,12 +39,12 @@ class Comparison {
   tool::Compared compared_;
 };
 
-/// The points of `rheonet sweep` with --random, --latin or --sobol: of each run the values, as text. `vary` and `correlate` are as after these
-/// options of the command. Throws std::invalid_argument for what the command refuses.
+/// The points of `rheonet sweep` with --random, --latin or --sobol: for each run its values as text. `vary` and `correlate` have the words
+/// after these options of the command. Throws std::invalid_argument for words that the command refuses.
 std::vector<std::vector<std::string>> drawn_points(const std::vector<std::string>& vary, const std::string& kind, long count, std::uint64_t seed,
                                                    const std::vector<std::string>& correlate);
 
-/// What each physical effect contributes.
+/// The contribution of each physical effect.
 class Effects {
  public:
   Effects(const Reading& reading, int runs, const py::object& progress);
@@ -53,7 +53,7 @@ class Effects {
   py::dict full() const { return model(ladder_.full); }
   py::list each() const { return models(ladder_.each); }
   py::list steps() const { return models(ladder_.steps); }
-  /// Position in `steps` of the barest model within `relative`.
+  /// Position in `steps` of the simplest model within `relative`.
   std::optional<std::size_t> barest(double relative) const;
   std::string text(std::optional<double> within) const;
 
@@ -66,15 +66,15 @@ class Effects {
   ModelHierarchy ladder_;
 };
 
-/// What accuracy costs.
+/// CPU time over accuracy.
 class Precision {
  public:
   struct Wanted {
     std::vector<double> accuracies;
     int runs = 5;
     bool variants = false, certified = false;
-    std::vector<std::pair<std::string, const Reading*>> models;  ///< by name
-    std::vector<std::vector<std::string>> records;               ///< of each model, one for each record of the scene
+    std::vector<std::pair<std::string, const Reading*>> models;  ///< By name.
+    std::vector<std::vector<std::string>> records;               ///< For each model one record for each record of the scene.
   };
   Precision(const Reading& reading, const Wanted& wanted, const py::object& progress);
 

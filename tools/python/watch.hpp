@@ -13,10 +13,10 @@ namespace rheonet::python {
 
 namespace py = pybind11;
 
-/// Time between two looks for signals (Ctrl-C), which is also the time between two calls of `progress`: short for a person.
+/// Interval at which signals (Ctrl-C) are checked and `progress` is called: short for a person.
 inline constexpr auto polling_interval = std::chrono::milliseconds(20);
 
-/// Looks for signals and calls `progress` during a run, at intervals. An exception (KeyboardInterrupt) ends the run.
+/// Checks for signals and calls `progress` during a run, at intervals. An exception (KeyboardInterrupt) ends the run.
 class Watch {
  public:
   /// `progress` is called with the fraction of the run completed, unless it is None.

@@ -142,7 +142,7 @@ class Finder {
     }
   }
 
-  /// What is positive by nature may span decades; what may have either sign is turned through 0.
+  /// A positive quantity gets a logarithmic range of decades; a quantity of either sign gets a range through 0.
   void set_range(AdjustableNumber& knob, const Parameter* declared) const {
     const double v = knob.value, size = std::abs(v);
     const bool number = declared ? declared->quantity == Quantity::number && declared->unit == Parameter::Unit::quantity : knob.unit.empty();

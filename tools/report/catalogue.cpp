@@ -53,7 +53,7 @@ bool is_given_otherwise(const Parameter& p) {
   return p.fallback || p.optional || p.kind == Parameter::Kind::initial || !p.same_as.empty() || !p.second_of.empty();
 }
 
-/// Of several parameters one of which must be given: a velocity, with which a drive moves, or else the first.
+/// The parameter to give if one of several is required: a velocity, so that a drive moves, or else the first.
 std::string chosen(const Declaration& d) {
   for (const Parameter& p : d.parameters)
     if (p.prescribes(Quantity::velocity) && std::find(d.one_of.begin(), d.one_of.end(), p.name) != d.one_of.end()) return p.name;
@@ -73,7 +73,7 @@ std::set<std::string> given_at_first(const Declaration& d) {
   }
   const std::optional<Misfit> misfit = d.check ? d.check(values) : std::nullopt;
   for (const Parameter& p : d.parameters)
-    // Of a lower and an upper bound the upper one: a first value is above 0.
+    // Give the upper bound rather than the lower one: initial values are above 0.
     if (misfit && p.name == misfit->parameter) given.insert(p.turned.empty() ? p.name : p.turned);
   return given;
 }

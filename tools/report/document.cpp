@@ -11,7 +11,7 @@
 namespace rheonet::report {
 namespace {
 
-/// JSON that may stand in a script element: nothing in it ends that.
+/// JSON escaped for a script element, which nothing in it can end.
 std::string in_script(const std::string& json) {
   std::string text;
   text.reserve(json.size());
@@ -24,14 +24,13 @@ std::string in_script(const std::string& json) {
   return text;
 }
 
-/// A text for the place that a mark stands at.
+/// A text that replaces a mark in the page.
 struct Filling {
   std::string_view mark;
   std::string text;
 };
 
-/// The page with its marks replaced, which come in this order. Marks are looked for in the page alone: a text that looks like
-/// one stays what it is.
+/// The page with its marks replaced, which must be in this order. Marks are searched in the page only, not in the inserted texts.
 std::string filled(std::string_view page, const std::vector<Filling>& fillings) {
   std::string result;
   for (const auto& [mark, text] : fillings) {

@@ -13,59 +13,59 @@
 
 namespace rheonet::report {
 
-/// What a page shows is told in messages: a line of JSON each, whose `kind` says what it holds. A report is made of
-/// those of its scenes; the playground gets them as they come.
+/// The contents of a page are sent as messages. Each is a line of JSON with a `kind`. A report contains the messages of its scenes; the
+/// playground receives them one by one.
 ///
-///     mistakes     what is wrong with a netlist, or doubtful: severity, line and column, message, hint
-///     scene        what was read: title, records, elements, schematic, equations, sliders
+///     mistakes     errors and warnings of a netlist: severity, line and column, message, hint
+///     scene        the scene that was read: title, records, elements, schematic, equations, sliders
 ///     catalogue    the element types that a netlist can name, and the JSON Schema of netlists
-///     explanation  what is simulated, and why: passages in words; or why it cannot be
+///     explanation  the equations that are solved, and why, in passages of text; or why the scene cannot be simulated
 ///     rows         a part of the rows, by column
 ///     energy       the energy account over time
-///     events       what switched, and when
-///     done         what the run took, notes, claims
-///     prices       what accuracy costs: error and work at each tolerance
-///     effects      what each physical effect of the scene changes
-///     failed       why it did not come to its end
+///     events       the events with their times
+///     done         the cost of the run, notes, claims
+///     prices       error and work at each tolerance
+///     effects      the contribution of each physical effect of the scene
+///     failed       why the task did not finish
 using Tell = std::function<void(const std::string& message)>;
 
 /// The mistakes of a netlist; only those of its own file have a line and a column.
 std::string mistakes_message(const ReadResult& read);
 
-/// What the scene is; the first `own_records` of its records are those that it asks for itself.
+/// The message `scene`; the first `own_records` of its records are requested by the netlist itself.
 std::string scene_message(const ReadResult& read, const std::string& file, std::size_t own_records);
 
-/// The element types: ports, parameters with a value to begin with, law and symbol; and the JSON Schema. It needs no netlist.
+/// The message `catalogue`: ports, parameters with an initial value, law and symbol of each element type, and the JSON Schema.
 std::string catalogue_message();
 
-/// What `rheonet explain` says of a scene; the run is begun for that.
+/// The message `explanation`, as in `rheonet explain`. Starts the run of the scene to determine it.
 std::string explanation_message(const Scene& scene);
 
 struct RunWanted {
-  std::size_t most_values = 200'000;  ///< rows times records, about; of more rows peaks are kept
+  std::size_t most_values = 200'000;  ///< Approximate limit of rows times records. More rows are decimated so that peaks are kept.
   std::size_t most_events = 2'000;
-  bool as_they_come = false;          ///< rows are told while the run goes on; else all at once
+  bool as_they_come = false;          ///< True: send rows during the run; false: all at its end.
   std::optional<double> tolerance = {};
   const std::atomic<bool>* interrupt = nullptr;
 };
 
-/// Simulates, and tells rows, energy, events and the end. Whether it came to its end.
+/// Simulates, and sends rows, energy, events and the end. Returns whether the run was completed.
 bool tell_run(const ReadResult& read, const RunWanted& wanted, const Tell& tell);
 
-/// Adds to what a scene records all that a page needs to draw loops and to move the network, if it is not too large.
-/// How many records were there before.
+/// Adds the records that a page needs to draw loops and to animate the network, unless the scene is too large. Returns the number of
+/// records before.
 std::size_t record_what_pages_show(Scene& scene);
 
-/// The price list of a scene; `text` says the same in words, "" if nobody reads them.
+/// The message `prices`; `text` is the price list as text, "" if it is not shown.
 std::string prices_message(const Scene& scene, const PriceList& list, const std::string& text);
 
-/// The models without some of the effects of a scene; `within` is the largest relative difference of one that is good enough.
+/// The message `effects`: the models without some effects of a scene. `within` is the largest acceptable relative difference of a model.
 std::string effects_message(const Scene& scene, const ModelHierarchy& models, double within);
 
-/// Adds the line and column of what stands in the scene's own file.
+/// Adds line and column to a message if the spot is in the scene's own file.
 void add_place(const Spot& spot, nlohmann::json& message);
 
-/// Text as JSON: what is no UTF-8 is replaced.
+/// JSON as one line of text; invalid UTF-8 is replaced.
 std::string to_line(const nlohmann::json& message);
 
 }  // namespace rheonet::report

@@ -5,8 +5,8 @@
 namespace rheonet::report {
 namespace {
 
-constexpr std::size_t extremes = 8;  // rows that a group usually keeps
-constexpr std::size_t columns = 64;  // whose extremes are kept: of very many no one looks at all
+constexpr std::size_t extremes = 8;  // Rows that a group usually keeps.
+constexpr std::size_t columns = 64;  // Columns whose extremes are kept.
 
 }  // namespace
 

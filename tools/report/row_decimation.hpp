@@ -6,17 +6,17 @@
 
 namespace rheonet::report {
 
-/// Passes rows on, fewer where they are more than anyone can see: of each group of neighbours the first, and those in
-/// which some column has its least or its largest value of the group, so that no peak is lost.
+/// Decimates rows and keeps every peak: from each group of consecutive rows it passes on the first row and the rows with the minimum and
+/// the maximum of each column.
 class RowDecimation {
  public:
   using Row = std::function<void(double time, const std::vector<double>& values)>;
 
-  /// `rows` are to be expected; where they are no more than `most`, all pass.
+  /// `rows` is the expected number of rows. If it is at most `most`, all rows are passed on.
   RowDecimation(std::size_t rows, std::size_t most, Row row);
 
   void add(double time, const std::vector<double>& values);
-  /// Passes on what is still held back, and the last row.
+  /// Passes on the rows of the last group, and the last row.
   void finish();
 
  private:

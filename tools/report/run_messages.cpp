@@ -20,7 +20,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using nlohmann::json;
 
-/// Gathers rows and tells them by column, with all digits: a small motion far from 0 is in the last ones.
+/// Collects rows and sends them by column, with all digits: a small motion far from 0 shows only in the last digits.
 class RowTeller {
  public:
   RowTeller(std::size_t columns, bool as_they_come, const Tell& tell)
@@ -58,7 +58,7 @@ class RowTeller {
   Clock::time_point last_ = Clock::now();
 };
 
-/// The energy account over the run, in bounded memory: it is taken at times about equally far apart.
+/// The energy account over the run in bounded memory, sampled at approximately equal intervals.
 class EnergyCourse {
  public:
   EnergyCourse(double start, double stop) : next_(start), every_((stop - start) / most) {}
@@ -95,7 +95,7 @@ class EnergyCourse {
   double next_, every_;
 };
 
-/// What switched; of very many the first.
+/// The first `most` events.
 struct EventList {
   std::size_t most;
   json items = json::array();
@@ -191,7 +191,7 @@ bool tell_run(const ReadResult& read, const RunWanted& wanted, const Tell& tell)
 }
 
 std::size_t record_what_pages_show(Scene& scene) {
-  // Elements of a scene of which all is recorded, and of one of which the positions are, which move its drawing.
+  // Up to `few` elements everything is recorded; up to `many` the positions, which animate the drawing.
   constexpr std::size_t few = 60, many = 300;
   const std::size_t before = scene.records.size();
   if (scene.elements.size() > many) return before;

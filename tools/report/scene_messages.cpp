@@ -47,7 +47,7 @@ json shown_in(const std::vector<std::string>& wished, const std::string& unit) {
   return nullptr;
 }
 
-/// A file by its way from the scene's folder; one that is far from there by its name alone.
+/// The path of a file relative to the scene's folder; only the name of a file that is far from there.
 std::string seen_from(const std::filesystem::path& scene, const std::filesystem::path& file) {
   std::error_code failed;
   const std::filesystem::path folder = scene.has_parent_path() ? scene.parent_path() : ".";
@@ -57,7 +57,7 @@ std::string seen_from(const std::filesystem::path& scene, const std::filesystem:
 
 json records(const ReadResult& read) {
   const Scene& scene = *read.scene;
-  const std::vector<plot::Column> columns = tool::columns_of(scene);  // the first is time
+  const std::vector<plot::Column> columns = tool::columns_of(scene);  // The first column is time.
   json list = json::array();
   for (std::size_t k = 0; k < scene.records.size(); ++k) {
     const Record& record = scene.records[k];
@@ -88,7 +88,7 @@ json numbers_of(const SceneElement& element) {
 
 json elements(const Scene& scene) {
   json list = json::array();
-  constexpr std::size_t most = 500;  // of more no one reads a table
+  constexpr std::size_t most = 500;  // Longer tables are not readable.
   for (std::size_t i = 0; i < std::min(scene.elements.size(), most); ++i) {
     const SceneElement& element = scene.elements[i];
     if (element.part != SceneElement::Part::none) continue;
@@ -106,9 +106,9 @@ json elements(const Scene& scene) {
   return list;
 }
 
-/// The laws of the element types that are used, each once.
+/// The law of each element type in use.
 json equations(const Scene& scene) {
-  std::map<int, Domain> used;  // each type, in the domain of its first element
+  std::map<int, Domain> used;  // Each type, in the domain of its first element.
   for (const SceneElement& element : scene.elements) used.emplace(element.declaration, domain_of(scene, element));
   json list = json::array();
   for (const auto& [index, domain] : used) {
@@ -148,21 +148,20 @@ json sliders(const ReadResult& read) {
   return list;
 }
 
-/// null of a scene that is none.
+/// The [demo]; null if the scene has none.
 json demo(const Demo& demo) {
   if (demo.question.empty()) return nullptr;
   return {{"question", demo.question}, {"change", demo.change}, {"see", demo.see}, {"why", demo.why}};
 }
 
-/// What the scene wants drawn: pairs of columns.
+/// The curves of [plot]: pairs of columns.
 json plot(const PlotTable& table) {
   json curves = json::array();
   for (const PlotTable::Curve& curve : table.curves) curves.push_back({curve.x, curve.y});
   return {{"curves", curves}};
 }
 
-/// The drawing, the nodes at the left and the right end of each symbol in it, where each symbol is joined to a node, or why there is
-/// no drawing.
+/// The drawing with the nodes at both ends of each symbol and the points where symbols meet nodes; or why there is no drawing.
 json schematic(const ReadResult& read) {
   const Scene& scene = *read.scene;
   try {

@@ -29,7 +29,7 @@ std::vector<std::string> long_options(const CLI::App& app) {
   return names;
 }
 
-// Names that other programs give to the same commands.
+// Names of the same commands in other programs.
 constexpr std::pair<std::string_view, std::string_view> foreign_commands[] = {
     {"simulate", "run"}, {"sim", "run"},       {"solve", "run"},  {"validate", "check"}, {"verify", "check"}, {"lint", "check"},
     {"graph", "plot"},   {"schematic", "draw"}, {"diff", "compare"}, {"playground", "serve"}, {"elements", "components"}};
@@ -46,14 +46,14 @@ bool follows_override(const std::string& word, const std::vector<std::string>& w
   return false;
 }
 
-// The first word that nobody asked for. `words` are those of the command line.
+// Throws WrongCommandLine for the first word that is neither an option nor an argument. `words` is the command line.
 void refuse_extra_words(const CLI::App& app, const std::vector<std::string>& words) {
   const auto is_option = [](const std::string& word) { return word.size() > 1 && word[0] == '-'; };
   const CLI::App* command = app.get_subcommands().empty() ? nullptr : app.get_subcommands().front();
   for (const CLI::App* level : {&app, command}) {
     if (level == nullptr) continue;
     for (const std::string& word : level->remaining()) {
-      if (word == "--") continue;  // only says that what follows is no option
+      if (word == "--") continue;  // Marks the end of the options.
       if (is_option(word)) {
         const std::string name = word.substr(0, word.find('='));
         throw WrongCommandLine{fmt::format("unknown option `{}`", name), did_you_mean(name, long_options(*level))};
@@ -73,7 +73,7 @@ void refuse_extra_words(const CLI::App& app, const std::vector<std::string>& wor
   }
 }
 
-// What CLI11 says of an option with too few or too many values, in words.
+// Rewords CLI11's message on an option with too few or too many values.
 std::string parse_error_in_words(const CLI::ParseError& error) {
   const std::string text = error.what();
   const std::string option = text.substr(0, text.find(':'));
@@ -84,7 +84,7 @@ std::string parse_error_in_words(const CLI::ParseError& error) {
   return fmt::format("`{}` is given more than once", option);
 }
 
-/// Each once, from the loosest on.
+/// Distinct values in descending order.
 std::vector<double> read_accuracies(const std::vector<std::string>& texts) {
   const char* const option = "--accuracies";
   std::vector<double> values;
@@ -147,7 +147,7 @@ void add_figure(CLI::App* command, Arguments& arguments) {
   command->add_option("--size", plot.size, "size of the figure in px (96 per inch)")->type_name("WxH");
 }
 
-/// The commands and options as CLI11 knows them, and what it reads into. A command has its options where it is called.
+/// The commands and options, declared for CLI11, and the variables that it writes to.
 struct CommandLine {
   Arguments arguments;
   std::optional<std::string> accuracy, within, order, runs;
@@ -189,7 +189,7 @@ struct CommandLine {
     app.set_help_flag("-h,--help", "print this help");
     app.set_version_flag("--version", "rheonet " RHEONET_VERSION, "print the version");
     app.footer(footer_of_rheonet);
-    // Extra words are let through here and refused by refuse_extra_words, which knows the nearest right one.
+    // Extra words are accepted here and refused by refuse_extra_words, which suggests the nearest valid word.
     app.allow_extras()->require_subcommand(0, 1);
     for (const Command& command : commands()) {
       CLI::App* known = app.add_subcommand(command.name, command.description)->allow_extras();
@@ -197,7 +197,7 @@ struct CommandLine {
       if (std::find(words.begin(), words.end(), command.name) != words.end()) (this->*command.add_options)(known);
     }
   }
-  CommandLine(const CommandLine&) = delete;  // `app` holds the addresses of the others
+  CommandLine(const CommandLine&) = delete;  // `app` holds addresses of the other members.
 
   void add_overrides(CLI::App* command) {
     add_list(command, "--set", arguments.overrides,
@@ -337,7 +337,7 @@ std::variant<Arguments, ExitStatus> read_arguments(std::vector<std::string> word
 
   arguments.words = words;
   words = with_every_option(words);
-  std::vector<std::string> reversed(words.rbegin(), words.rend());  // the order in which CLI11 wants a vector
+  std::vector<std::string> reversed(words.rbegin(), words.rend());  // CLI11 takes a vector in reverse order.
   try {
     try {
       app.parse(reversed);
@@ -345,7 +345,7 @@ std::variant<Arguments, ExitStatus> read_arguments(std::vector<std::string> word
       app.exit(help_or_version);
       return done;
     } catch (const CLI::ParseError& error) {
-      refuse_extra_words(app, words);  // a misspelt word is often why another is missing
+      refuse_extra_words(app, words);  // A misspelt word is often the reason for a missing one.
       throw WrongCommandLine{parse_error_in_words(error), ""};
     }
     refuse_extra_words(app, words);

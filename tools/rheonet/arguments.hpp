@@ -10,56 +10,57 @@
 
 namespace rheonet::tool {
 
-/// What a process ends with; part of the contract with scripts that call the program.
+/// Exit status of the process. Scripts that call the program rely on these values.
 enum ExitStatus { done = 0, not_simulated = 1, not_as_claimed = 1, wrong_input = 2 };
 
-/// What `effects` lets a record be off, of its largest magnitude, to recommend a model: what a measurement does not show.
+/// Error that `effects` accepts in a recommended model, as a fraction of the largest magnitude of each record: about the uncertainty of a
+/// measurement.
 inline constexpr double default_within = 0.01;
 
-/// A command line, read.
+/// The contents of a command line.
 struct Arguments {
   enum class Command { run, check, explain, effects, compare, precision, sweep, plot, draw, report, serve, components, expressions, schema };
 
   Command command = Command::run;
-  std::vector<std::string> words;      ///< as they were given
+  std::vector<std::string> words;      ///< The command line as it was given.
   std::string scene;
-  std::vector<std::string> scenes;     ///< of `compare`; of `plot` also CSV files
-  std::vector<std::string> pairs;      ///< PATH=PATH, of `compare`
-  std::string vary;                    ///< PATH=RANGE, of `compare`; "": nothing
-  std::optional<double> within;        ///< of `compare`; of `effects`, else default_within
-  std::string overlay;                 ///< where the data of `compare`, `precision` and `effects` go; "": nowhere
-  std::string output = "-";            ///< "-": standard output
-  std::string events;                  ///< where the events go; "": nowhere
-  std::string figure;                  ///< where `run` draws its records; "": nowhere
-  std::vector<std::string> overrides;  ///< PATH=VALUE
+  std::vector<std::string> scenes;     ///< For `compare` and `report`; for `plot` also CSV files.
+  std::vector<std::string> pairs;      ///< PATH=PATH, for `compare` and `precision`.
+  std::string vary;                    ///< PATH=RANGE, for `compare`; "": no value is varied.
+  std::optional<double> within;        ///< Relative error that `compare` and `effects` accept.
+  std::string overlay;                 ///< File for the data of `compare`, `precision` and `effects`; "": none.
+  std::string output = "-";            ///< Output file; "-": standard output.
+  std::string events;                  ///< File for the events; "": none.
+  std::string figure;                  ///< File for the figure of `run` or `precision`; "": none.
+  std::vector<std::string> overrides;  ///< PATH=VALUE.
   std::optional<double> accuracy;
-  bool certify = false;                ///< of `run` and `report`
-  bool profile = false;                ///< of `run`
-  std::vector<std::string> sensitivities;  ///< of `run`: paths of values
-  int order = 5;                       ///< of the integration method in `run`, at most
-  std::vector<double> accuracies;      ///< of `precision`, each once, from the loosest on
-  int runs = 5;                        ///< of `precision`, for each accuracy; of `effects`, of each model
-  bool variants = false;               ///< of `precision`
-  bool certified = false;              ///< of `precision`: certified runs too
-  std::vector<std::string> variant_texts;  ///< of `precision`: as after --variant
-  std::vector<std::string> without;    ///< effects
-  std::optional<std::vector<std::string>> only;  ///< effects; empty: none
-  std::vector<std::string> keep;       ///< reductions that are not made
-  bool json = false;                   ///< of `explain`
-  bool numerics = false;               ///< of `explain`: print the numerical parameters; there is no scene then
+  bool certify = false;                ///< For `run` and `report`.
+  bool profile = false;                ///< For `run`.
+  std::vector<std::string> sensitivities;  ///< For `run`: paths of values.
+  int order = 5;                       ///< For `run`: highest order of the integration method.
+  std::vector<double> accuracies;      ///< For `precision`: distinct, in descending order.
+  int runs = 5;                        ///< Repetitions of a timed run: for each accuracy (`precision`) or model (`effects`).
+  bool variants = false;               ///< For `precision`.
+  bool certified = false;              ///< For `precision`: add certified runs.
+  std::vector<std::string> variant_texts;  ///< For `precision`: the words after each --variant.
+  std::vector<std::string> without;    ///< Effects that are left out.
+  std::optional<std::vector<std::string>> only;  ///< Effects that are kept; an empty vector keeps none.
+  std::vector<std::string> keep;       ///< Reductions that are switched off.
+  bool json = false;                   ///< For `explain`.
+  bool numerics = false;               ///< For `explain`: print the numerical parameters; there is no scene then.
   bool quiet = false;
   bool verbose = false;
-  std::string type;  ///< of `components`; "": all
+  std::string type;  ///< For `components`; "": all.
   bool markdown = false;
 
-  /// Of `plot`: what is drawn, and how; "" and empty where that is left to the files.
+  /// Options of `plot`. An empty string or vector leaves the choice to the files.
   struct Plot {
-    std::string x;                                        ///< a column
-    std::vector<std::string> y;                           ///< columns
-    std::vector<std::string> loops, flows, phases, decays;  ///< elements; of `phases` nodes
-    std::string log;                                      ///< "x", "y", "xy"
-    std::string x_range, y_range;                         ///< "LOW:HIGH"
-    std::string size;                                     ///< "WIDTHxHEIGHT"
+    std::string x;                                        ///< Column.
+    std::vector<std::string> y;                           ///< Columns.
+    std::vector<std::string> loops, flows, phases, decays;  ///< Elements; for `phases` nodes.
+    std::string log;                                      ///< Logarithmic axes: "x", "y", "xy".
+    std::string x_range, y_range;                         ///< "LOW:HIGH".
+    std::string size;                                     ///< "WIDTHxHEIGHT" [px].
     std::string title, x_label, y_label;
     std::vector<std::string> units, names;
     bool magnitudes = false, marks = false;
@@ -68,14 +69,14 @@ struct Arguments {
   SweepArguments sweep;
   ReportArguments report;
   ServeArguments serve;
-  std::string title;    ///< of `draw` and `report`; "": that of the scene
-  bool no_values = false;  ///< of `draw`
-  bool all = false;        ///< of `draw`
-  std::string domain;  ///< of CSV files: "translation", "rotation"; "": not said
+  std::string title;    ///< For `draw` and `report`; "": the title of the scene.
+  bool no_values = false;  ///< For `draw`.
+  bool all = false;        ///< For `draw`.
+  std::string domain;  ///< Domain of CSV files: "translation", "rotation"; "": unspecified.
 };
 
-/// Reads the words after the program's name. The exit status instead if there is nothing more to do: help or the
-/// version was asked for, or the command line is wrong; what there is to say has then been printed.
+/// Reads the words after the program's name. Returns an exit status instead after printing the help, the version, or the error in the
+/// command line.
 std::variant<Arguments, ExitStatus> read_arguments(std::vector<std::string> words);
 
 }  // namespace rheonet::tool

@@ -20,7 +20,7 @@ std::string trimmed(const std::string& text) {
   return first == std::string::npos ? "" : text.substr(first, last - first + 1);
 }
 
-/// What one `--variant` says: a scene, values of it, or both.
+/// The contents of one `--variant`: a scene, values, or both.
 struct Asked {
   std::string text, file;
   std::vector<std::string> overrides;
@@ -43,7 +43,7 @@ std::optional<Asked> parsed(const std::string& text, const std::string& own_file
   return asked;
 }
 
-/// `--pair a=b`: what the scene records as a the variants have as b.
+/// `--pair a=b`: record `a` of the scene corresponds to record `b` of the variants.
 std::optional<std::map<std::string, std::string>> pairs_of(const Arguments& arguments, const Scene& scene) {
   const Columns known = record_columns(scene);
   std::map<std::string, std::string> result;
@@ -62,14 +62,14 @@ std::optional<std::map<std::string, std::string>> pairs_of(const Arguments& argu
   return result;
 }
 
-/// Reads a variant, with the records `own` if it is of the scene's own file, else with those that are `paired`. Nothing, with messages,
-/// if it has a mistake; throws NotComparable.
+/// Reads a variant, with the records `own` if it comes from the scene's own file, otherwise with the records `paired`. Returns nothing,
+/// after messages, if it has a mistake. Throws NotComparable.
 std::optional<Variant> read_variant(const Arguments& arguments, const std::string& text, const std::vector<std::string>& own,
                                     const std::vector<std::string>& paired, const Scene& scene) {
   const auto asked = parsed(text, arguments.scene);
   if (!asked) return {};
   ReadOptions options = options_of(arguments);
-  options.claims = false;  // they are about each scene as it stands, alone
+  options.claims = false;  // Claims hold for the unmodified scene.
   options.records = asked->file == arguments.scene ? own : paired;
   options.overrides.insert(options.overrides.end(), asked->overrides.begin(), asked->overrides.end());
   ReadResult read = read_and_report(asked->file, options);
@@ -87,7 +87,7 @@ std::optional<Variant> read_variant(const Arguments& arguments, const std::strin
 std::optional<std::vector<SimulationMethod>> asked_variants(const Arguments& arguments, Scene& scene) {
   const auto pairs = pairs_of(arguments, scene);
   if (!pairs) return {};
-  std::vector<std::string> own, paired;  // paths, in this scene and in others
+  std::vector<std::string> own, paired;  // Paths in this scene and in other scenes.
   for (const Record& record : scene.records) {
     const auto other = pairs->find(record.path);
     own.push_back(record.path);

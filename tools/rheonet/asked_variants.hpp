@@ -9,9 +9,9 @@
 
 namespace rheonet::tool {
 
-/// The manners that `--variant` of `precision` asks for: other scenes, or other values of this one, all with the records of the
-/// scene, in its order, other scenes' under the names that `--pair` gives them. All get one time base, the scene too. Nothing, with messages,
-/// if one of them cannot be read or has not what the scene records.
+/// The methods that `--variant` of `precision` asks for: other scenes, or this scene with other values. Each has the records of `scene` in
+/// the same order; `--pair` gives the names of these records in another scene. All methods and `scene` get one time base. Returns nothing,
+/// after printing messages, if a variant cannot be read or lacks a record.
 std::optional<std::vector<SimulationMethod>> asked_variants(const Arguments& arguments, Scene& scene);
 
 }  // namespace rheonet::tool

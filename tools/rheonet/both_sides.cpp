@@ -11,7 +11,7 @@ void BothSides::listen(RunSettings& settings) {
   settings.state = [this](double time, const std::vector<double>& values) { state(time, values); };
 }
 
-// The row at an instant is the one after it, and may come before the state that shows that there is one.
+// A row at an event is its right limit. It may arrive before the state that reveals the event.
 void BothSides::row(double time, const std::vector<double>& values) {
   if (state_ && state_->time == time && !std::exchange(told_, true)) tell(*state_);
   tell({time, values});

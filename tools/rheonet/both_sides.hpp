@@ -10,20 +10,20 @@
 
 namespace rheonet::tool {
 
-/// The rows of a run, and between them both sides of each instant at which a record may jump or turn a corner: what is
-/// drawn through them has upright jumps and sharp corners.
+/// Adds to the rows of a run the left and right limits at each instant at which a record may jump or have a kink, so that curves through
+/// them have vertical jumps and sharp corners.
 class BothSides {
  public:
   using Row = std::function<void(double time, const std::vector<double>& values)>;
 
-  /// Of more than `most` such instants the later ones are passed over.
+  /// Adds at most the first `most` such instants.
   explicit BothSides(Row row, std::size_t most = std::numeric_limits<std::size_t>::max());
 
-  /// Makes a run tell it; must outlive that run.
+  /// Connects the callbacks of a run to this object, which must outlive the run.
   void listen(RunSettings& settings);
 
-  void row(double time, const std::vector<double>& values);    ///< as RunSettings::row
-  void state(double time, const std::vector<double>& values);  ///< as RunSettings::state
+  void row(double time, const std::vector<double>& values);    ///< See RunSettings::row.
+  void state(double time, const std::vector<double>& values);  ///< See RunSettings::state.
 
  private:
   struct Moment {
@@ -35,10 +35,10 @@ class BothSides {
   void tell(const Moment& moment);
 
   Row row_;
-  std::size_t left_;             ///< instants that may still be told
-  std::optional<Moment> state_;  ///< the last one
-  bool told_ = false;            ///< the row of that
-  std::optional<Moment> last_;   ///< what was told last
+  std::size_t left_;             ///< Number of instants that may still be added.
+  std::optional<Moment> state_;  ///< The latest state.
+  bool told_ = false;            ///< The latest state has been passed on as a row.
+  std::optional<Moment> last_;   ///< The last row passed on.
 };
 
 }  // namespace rheonet::tool

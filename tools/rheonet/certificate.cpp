@@ -46,7 +46,7 @@ std::string cost(const Certificate& certificate) {
   return fmt::format("{} runs, {} of CPU time together", certificate.runs, in_time_units(certificate.cpu_seconds));
 }
 
-/// Why it could not be done, and what would help.
+/// Why the accuracy could not be certified, and the remedy.
 std::string reason(const Certificate& certificate) {
   const std::vector<Round>& rounds = certificate.rounds;
   if (!certificate.obstacle.empty()) return "a tighter run does not come to its end: " + certificate.obstacle;
@@ -60,7 +60,7 @@ std::string reason(const Certificate& certificate) {
   return "each run is more accurate than the one before, but double precision leaves no room for a tighter one";
 }
 
-/// In sentences, without the table of records.
+/// The failure in sentences, without the table of records.
 std::string failure(const Scene& scene, const Certificate& certificate) {
   if (certificate.rounds.empty())
     return fmt::format("not certified: {}\n  the rows are those of a run to {:g}, whose error is not known\n",

@@ -7,11 +7,11 @@
 
 namespace rheonet::tool {
 
-/// The same for a report: what was found, and what it cost.
+/// The result of a certification and its cost, for a report.
 std::string describe(const Scene& scene, const Certificate& certificate);
 
-/// Says of each record how far it is estimated to be off, unless `quiet`; if that is more than the scene asks for, as an
-/// error with what could be reached. Whether the certificate holds.
+/// Prints the estimated error of each record, unless `quiet`. If an error exceeds the scene's accuracy, prints an error message with the
+/// accuracy that was reached. Returns whether the certificate holds.
 bool report_certificate(const Scene& scene, const Certificate& certificate, bool quiet);
 
 }  // namespace rheonet::tool

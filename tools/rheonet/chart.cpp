@@ -21,7 +21,7 @@ using plot::Mistake;
 /// The columns of a curve, by name.
 using Wanted = PlotTable::Curve;
 
-/// What the command line asks for; empty if it leaves the choice to the files.
+/// The curves on the command line; empty if it leaves the choice to the files.
 std::vector<Wanted> wanted_curves(const Arguments::Plot& plot) {
   std::vector<Wanted> wanted;
   for (const std::string& y : plot.y) wanted.push_back({plot.x.empty() ? "time" : plot.x, y});
@@ -52,7 +52,7 @@ Mistake no_column(const PlotSource& source, const std::string& name) {
                  near.empty() ? all : fmt::format("did you mean `{}`?", near));
 }
 
-/// What a file contributes: of the curves asked for those that it has the columns of.
+/// The requested curves whose columns a file has.
 std::vector<plot::ColumnPair> pairs_of(const PlotSource& source, const std::vector<Wanted>& asked_for,
                                        const std::string& x_name, bool alone, std::vector<std::string>& notes) {
   const std::vector<Wanted>& wanted = asked_for.empty() ? source.own().curves : asked_for;
@@ -64,7 +64,7 @@ std::vector<plot::ColumnPair> pairs_of(const PlotSource& source, const std::vect
     const std::vector<std::size_t> chosen = chosen_columns(source.columns(), x, notes);
     const bool any = std::any_of(chosen.begin(), chosen.end(), [&](std::size_t y) { return source.has_numbers(y); });
     for (const std::size_t y : chosen) {
-      // Where none has any, reading them says what is wrong with the file.
+      // If no column has numbers, keep them all: reading them reports the mistake in the file.
       if (!any || source.has_numbers(y))
         pairs.emplace_back(*x_column, y);
       else
@@ -84,7 +84,7 @@ std::vector<plot::ColumnPair> pairs_of(const PlotSource& source, const std::vect
   return pairs;
 }
 
-/// What tells the curves of several files apart: the files' names, as short as they can be.
+/// The shortest names that distinguish the files.
 std::vector<std::string> short_names(const std::vector<std::unique_ptr<PlotSource>>& sources) {
   std::vector<std::string> names;
   std::set<std::string> different;
@@ -206,7 +206,7 @@ Chart chart_of(const std::vector<std::unique_ptr<PlotSource>>& sources, const Ar
     for (PlotSource::Drawn& drawn : sources[i]->read(pairs[i])) {
       const auto& [x_column, y_column] = pairs[i][drawn.pair];
       const plot::Column &x = sources[i]->columns()[x_column], &y = sources[i]->columns()[y_column];
-      // Only what tells one curve from another.
+      // A label has only the parts that distinguish the curves.
       std::vector<std::string> parts;
       if (!alone) parts.push_back(short_name[i]);
       if (pairs[i].size() > 1 || (alone && drawn.run.empty())) parts.push_back(y.name);

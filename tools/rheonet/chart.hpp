@@ -9,23 +9,23 @@
 
 namespace rheonet::tool {
 
-/// The records that the curves asked for are drawn from.
+/// The records that the requested curves are drawn from.
 std::vector<std::string> records_of(const Arguments::Plot& plot);
 
-/// Of columns that nobody chose, the positions of those that a figure has room for beside its x: the first twelve of each quantity, and
-/// no time. Notes say how many others there are.
+/// The default choice of columns: positions of the first twelve of each quantity, without `x` and without times. Adds notes with the
+/// number of columns left out.
 std::vector<std::size_t> chosen_columns(const std::vector<plot::Column>& columns, const std::string& x, std::vector<std::string>& notes);
 
-/// The units and logarithmic axes of `[plot]`, where `look` has none.
+/// Takes units and logarithmic axes from `[plot]` where `look` has none.
 void follow(const PlotTable& table, plot::Look& look);
 
-/// Curves before they have axes, and how they are wanted: for plot::compose.
+/// Curves without axes and the requested appearance: the input of plot::compose.
 struct Chart {
   std::vector<plot::Measured> curves;
   plot::Look look;
 };
 
-/// What `plot` asks for, or what the sources want drawn if it leaves the choice to them. Notes say what was left out. Throws
+/// The chart that `plot` asks for, or the sources' own chart if `plot` names no curves. Adds notes on everything left out. Throws
 /// plot::Mistake; PlotEnded if a scene cannot be simulated.
 Chart chart_of(const std::vector<std::unique_ptr<PlotSource>>& sources, const Arguments::Plot& plot, std::vector<std::string>& notes);
 

@@ -29,7 +29,7 @@ std::string unit_of_claim(const Claim& claim, const Scene& scene) {
   if (claim.per < 0) return unit_of(record, scene);
   const Dimension dimension = rheonet::unit_of(scene, record).dimension /
                               rheonet::unit_of(scene, record_of(scene, claim.per)).dimension;
-  // A damping as N*s/m, not as kg/s.
+  // Print a damping in N*s/m rather than kg/s.
   for (const Quantity known : {Quantity::number, Quantity::stiffness, Quantity::damping, Quantity::time})
     if (dimension.same(dimension_of(known, domain_of(scene, record)))) return rheonet::unit_of(known, domain_of(scene, record));
   return to_string(dimension);
@@ -37,7 +37,7 @@ std::string unit_of_claim(const Claim& claim, const Scene& scene) {
 
 namespace {
 
-/// "k1.force at 0.2 s", "largest k1.force from 1 s to 2 s".
+/// As in "k1.force at 0.2 s", "largest k1.force from 1 s to 2 s".
 std::string name_of_claim(const Claim& claim, const Scene& scene) {
   const Record& record = record_of(scene, claim.record);
   std::string path = record.path;

@@ -4,22 +4,22 @@
 
 namespace rheonet::tool {
 
-/// `rheonet run`: reads, simulates, writes the rows and says what it took.
+/// `rheonet run`: simulates a scene, writes the rows and prints a summary.
 ExitStatus run_scene(const Arguments& arguments);
 
-/// `rheonet check`: reads, and finds out what can be known without simulating.
+/// `rheonet check`: reads a scene and reports every mistake that can be found without a simulation.
 ExitStatus check_scene(const Arguments& arguments);
 
-/// `rheonet explain`: says what will be simulated of a scene, and why; or lists the numerical parameters of the engine.
+/// `rheonet explain`: explains which equations of a scene will be solved, and why; or lists the numerical parameters of the engine.
 ExitStatus explain_scene(const Arguments& arguments);
 
-/// `rheonet effects`: says what each effect of a scene contributes, and what it costs.
+/// `rheonet effects`: reports the contribution and the cost of each physical effect in a scene.
 ExitStatus weigh_effects(const Arguments& arguments);
 
-/// `rheonet compare`: runs several scenes and says how far they are from the first.
+/// `rheonet compare`: runs several scenes and reports their differences from the first.
 ExitStatus compare_scenes(const Arguments& arguments);
 
-/// `rheonet precision`: says what accuracy costs in a scene.
+/// `rheonet precision`: measures CPU time against error for a scene.
 ExitStatus price_scene(const Arguments& arguments);
 
 /// `rheonet sweep`: simulates a scene for many values of its parameters.
@@ -34,7 +34,7 @@ ExitStatus draw_network(const Arguments& arguments);
 /// `rheonet report`: writes one HTML file that shows scenes and their results.
 ExitStatus write_report(const Arguments& arguments);
 
-/// `rheonet serve`: becomes the program that serves the playground.
+/// `rheonet serve`: replaces the process by the server of the playground.
 ExitStatus serve_playground(const Arguments& arguments);
 
 /// `rheonet components`: prints the reference.

@@ -16,12 +16,12 @@
 namespace rheonet::tool {
 namespace {
 
-/// Ends the command: what there is to say has been said.
+/// Thrown to end the command after its messages have been printed.
 struct Ended {
   ExitStatus status;
 };
 
-/// `--pair a=b`: of the first scene a, of every other b; `a=b=c`: one for each.
+/// `--pair a=b`: `a` in the first scene, `b` in every other scene; `a=b=c`: one for each scene.
 std::vector<Pairing> named_pairs(const Arguments& arguments) {
   std::vector<Pairing> pairings;
   for (const std::string& text : arguments.pairs) {
@@ -51,7 +51,7 @@ Compared read_all(const Arguments& arguments, const std::string& override) {
   compared.pairings = named_pairs(arguments);
   for (std::size_t i = 0; i < arguments.scenes.size(); ++i) {
     ReadOptions options = options_of(arguments);
-    options.claims = false;  // they are about each scene as it stands, alone
+    options.claims = false;  // Claims hold for the unmodified scene.
     if (!override.empty()) {
       options.overrides.push_back(override);
       options.origins = {"--vary "};
@@ -75,7 +75,7 @@ Compared read_all(const Arguments& arguments, const std::string& override) {
   throw Ended{wrong_input};
 }
 
-/// Runs the scenes and takes the differences.
+/// Simulates the scenes and computes the differences.
 void run_all(Compared& compared, const std::string& override, const std::atomic<bool>& interrupted) {
   try {
     simulate(compared, {.interrupt = &interrupted});
@@ -88,7 +88,7 @@ void run_all(Compared& compared, const std::string& override, const std::atomic<
   }
 }
 
-/// Looks for a pair further apart.
+/// Updates `furthest` if a pair has a larger difference.
 void look(const Compared& compared, const std::string& value, Furthest& furthest) {
   for (std::size_t other = 1; other < compared.scenes.size(); ++other)
     for (std::size_t p = 0; p < compared.pairings.size(); ++p) {
@@ -98,11 +98,11 @@ void look(const Compared& compared, const std::string& value, Furthest& furthest
     }
 }
 
-/// What there is to say and to write.
+/// The report, the data, and the pair with the largest difference.
 struct Findings {
   std::string text, data;
   Furthest furthest;
-  std::optional<Ended> ended;  ///< before the last value of a variation
+  std::optional<Ended> ended;  ///< Present if the comparison ended before the last value.
 };
 
 Findings compare_once(Compared compared, const std::atomic<bool>& interrupted) {
@@ -114,7 +114,8 @@ Findings compare_once(Compared compared, const std::atomic<bool>& interrupted) {
   return found;
 }
 
-/// `compared` are the scenes with the first value. Where one cannot be simulated the values before it are kept.
+/// Compares for each value. `compared` has the scenes with the first value. If a scene cannot be simulated, the results for the values
+/// before are kept.
 Findings compare_over(const Variation& variation, Compared compared, const Arguments& arguments,
                       const std::atomic<bool>& interrupted) {
   Findings found;
@@ -165,7 +166,7 @@ ExitStatus compare(const Arguments& arguments) {
   }
   const bool judged = arguments.within && !found.ended;
   if (judged) found.text += '\n' + verdict(*arguments.within, found.furthest, variation ? variation->path : "");
-  // Data on standard output are for a program to read: the report is then a message beside them.
+  // If the data go to standard output, print the report on standard error.
   arguments.overlay == "-" ? say("{}", found.text) : fmt::print("{}", found.text);
   if (output && !write_all(*output, found.data, row)) return not_simulated;
   if (found.ended) {

@@ -132,7 +132,7 @@ std::string table(const std::string& path, const std::vector<Varied>& rows, cons
   for (std::size_t i = 0; i < compared.scenes.size(); ++i) text += fmt::format(",{} dissipated", letter(i));
   text += '\n';
   for (const Varied& row : rows) {
-    text += row.value;  // which has no comma: lists are split at them
+    text += row.value;  // Has no comma, because lists are split at commas.
     for (const auto& of_scene : row.differences)
       for (const Difference& d : of_scene)
         text += fmt::format(",{},{},{},{},{}", d.largest, d.relative(), d.time, d.rms, d.relative_rms());

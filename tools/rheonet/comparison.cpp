@@ -9,7 +9,7 @@
 namespace rheonet::tool {
 namespace {
 
-/// Times that differ by less than this fraction of the run are the same, computed otherwise.
+/// Times whose difference is below this fraction of the run differ by round-off only.
 constexpr double rounding = 1e-9;
 
 const char* name_of_domain(Domain domain) { return domain == Domain::rotation ? "rotation" : "translation"; }

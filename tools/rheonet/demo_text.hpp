@@ -6,8 +6,7 @@
 
 namespace rheonet::tool {
 
-/// What a scene is to teach, in lines for a terminal: its texts, and the ranges of its sliders. "" of a scene without a
-/// `[demo]`.
+/// The lesson of a scene as lines for a terminal: its texts and the ranges of its sliders. "" for a scene without a `[demo]`.
 std::string demo_text(const Demo& demo);
 
 }  // namespace rheonet::tool

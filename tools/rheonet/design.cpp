@@ -17,11 +17,11 @@
 namespace rheonet::tool {
 namespace {
 
-constexpr long most_runs = 10'000'000;  // of an evening on many cores, each a millisecond
+constexpr long most_runs = 10'000'000;  // 3 CPU hours at 1 ms a run.
 
 using Checked = std::variant<std::monostate, NoVariation>;
 
-/// A cell of the list, with the unit of its heading if it is a number without one.
+/// A cell of the list. A number without a unit gets the unit of the heading.
 std::string with_unit(std::string_view cell, std::string_view unit) {
   return unit.empty() || !csv_number(cell) ? std::string(cell) : fmt::format("{} {}", cell, unit);
 }

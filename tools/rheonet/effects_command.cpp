@@ -14,11 +14,11 @@ namespace rheonet::tool {
 
 ExitStatus weigh_effects(const Arguments& arguments) {
   ReadOptions options = options_of(arguments);
-  options.claims = false;  // they are about the full model
+  options.claims = false;  // Claims hold for the full model.
   const ReadResult read = read_and_report(arguments.scene, options);
   if (!read.scene) return wrong_input;
   Scene scene = *read.scene;
-  scene.output_events = false;  // models are compared at the same times
+  scene.output_events = false;  // Models are compared at the same times.
   if (is_source(arguments.overlay, "--output", read.sources) || !can_be_table(arguments.overlay, "--output")) return wrong_input;
   std::unique_ptr<Output> output;
   if (!arguments.overlay.empty() && !(output = open_output(arguments.overlay, Output::Writing::complete))) return wrong_input;
@@ -29,7 +29,7 @@ ExitStatus weigh_effects(const Arguments& arguments) {
   });
   if (!simulated) return not_simulated;
   const std::string text = describe(scene, arguments.scene, ladder, arguments.within.value_or(default_within));
-  // Data on standard output are for a program to read: the report is then a message beside them.
+  // If the data go to standard output, print the report on standard error.
   arguments.overlay == "-" ? say("{}", text) : fmt::print("{}", text);
   return output && !write_all(*output, table(scene, ladder), "row") ? not_simulated : done;
 }

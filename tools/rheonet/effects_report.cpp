@@ -20,7 +20,7 @@ std::string in_words(const std::vector<Effect>& effects) {
   return fmt::format("{}", fmt::join(words, ", "));
 }
 
-/// What is less than the runs are accurate to says nothing.
+/// A relative change in percent; only an upper bound if it is below the accuracy of the runs.
 std::string percent(double relative, double accuracy) {
   if (relative < accuracy) return fmt::format("< {:g} %", 100 * accuracy);
   return relative < 0.995 ? fmt::format("{:.2g} %", 100 * relative) : fmt::format("{:.0f} %", 100 * relative);
@@ -54,7 +54,7 @@ std::string models(const Scene& scene, const ModelHierarchy& ladder, const std::
   return text;
 }
 
-/// Of each record, what each effect changes by itself; the records first that change most.
+/// For each record the change by each effect alone, in descending order of the largest change.
 std::string by_record(const Scene& scene, const ModelHierarchy& ladder) {
   std::vector<std::size_t> order(scene.records.size());
   std::vector<double> most(order.size(), 0);
@@ -134,7 +134,7 @@ std::string table(const Scene& scene, const ModelHierarchy& ladder) {
   add(ladder.full);
   for (const Rung& rung : ladder.each) add(rung);
   for (const Rung& rung : ladder.steps) {
-    if (rung.without.size() > 1) add(rung);  // the first is one of those already
+    if (rung.without.size() > 1) add(rung);  // A model without one effect is in the table already.
   }
   return text;
 }

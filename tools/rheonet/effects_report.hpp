@@ -6,8 +6,8 @@
 
 namespace rheonet::tool {
 
-/// The ladder of a scene for a person to read, with a recommendation: what it can do without where records may be off by
-/// `within` of their largest magnitude.
+/// The model hierarchy of a scene as text, and a recommendation: the effects that can be left out if records may be wrong by `within` of
+/// their largest magnitude.
 std::string describe(const Scene& scene, const std::string& file, const ModelHierarchy& ladder, double within);
 
 /// The same as CSV: a row for each model and record.

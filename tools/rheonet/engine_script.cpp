@@ -15,7 +15,7 @@
 namespace rheonet::tool {
 namespace {
 
-/// A word as a shell reads it.
+/// A word, quoted for a shell if necessary.
 std::string quoted(const std::string& word) {
   const auto plain = [](unsigned char c) { return std::isalnum(c) != 0 || std::string_view("-_./:=,+").find(static_cast<char>(c)) != std::string_view::npos; };
   if (!word.empty() && std::all_of(word.begin(), word.end(), plain)) return word;
@@ -24,7 +24,7 @@ std::string quoted(const std::string& word) {
   return text + "'";
 }
 
-/// The command that simulates this sweep, without the options that say which part of it and where the rows go.
+/// The command that simulates this sweep, without the options for the shard and the output.
 std::string command_of(const Arguments& arguments) {
   std::error_code failed;
   const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", failed);
@@ -50,10 +50,10 @@ std::string command_of(const Arguments& arguments) {
   return text;
 }
 
-/// "results/sweep.csv" -> "results/sweep.shard-"
+/// "results/sweep.csv" -> "results/sweep.shard-".
 std::string shard_stem(const std::string& output) { return std::filesystem::path(output).replace_extension().string() + ".shard-"; }
 
-/// The command that simulates one shard. `number` is the shell's word for the number of that shard.
+/// The command that simulates one shard. `number` is the shell expression for the number of the shard.
 std::string simulate_command(const Arguments& arguments, const Division& division, const std::string& number) {
   return fmt::format("{} --shard {}/{} --resume --jobs 1 -q -o {}{}.csv", command_of(arguments), number, division.shards,
                      quoted(shard_stem(arguments.output)), number);

@@ -21,7 +21,7 @@ std::string plural(std::size_t count, const std::string& noun) {
   return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
 }
 
-/// "2.3 ms": three digits are more than a prediction has.
+/// As in "2.3 ms": two digits, because a prediction is no more accurate.
 std::string duration(double seconds) {
   const std::pair<double, const char*> units[] = {{1, "s"}, {1e-3, "ms"}, {1e-6, "us"}};
   const auto* unit = std::find_if(std::begin(units), std::end(units) - 1, [&](const auto& u) { return seconds >= u.first; });
@@ -132,7 +132,7 @@ std::string describe(const Scene& scene, const std::string& file, const Explanat
   for (const Passage& passage : passages(scene, e)) {
     text += "\n" + passage.heading + "\n";
     for (const auto& [label, words] : passage.lines) {
-      // A line hangs below its first word, or below what stands beside its label.
+      // Continuation lines are indented to the text after the label, or by 4 without a label.
       text += label.empty() ? "  " + wrapped(words, 4) : fmt::format("  {:<13}", label) + wrapped(words, 15);
       text += "\n";
     }

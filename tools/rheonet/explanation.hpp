@@ -7,18 +7,18 @@
 
 namespace rheonet::tool {
 
-/// A part of an explanation in words; names are between backticks.
+/// A part of an explanation as text; names are between backticks.
 struct Passage {
   std::string heading = {};
   struct Line {
-    std::string label = {};  ///< "" of most
+    std::string label = {};  ///< Often "".
     std::string text = {};
   };
   std::vector<Line> lines = {};
 };
 std::vector<Passage> passages(const Scene& scene, const Explanation& explanation);
 
-/// An explanation for a person to read. `file` is what the scene is called.
+/// An explanation as text. `file` is the name of the scene.
 std::string describe(const Scene& scene, const std::string& file, const Explanation& explanation);
 
 /// The same as JSON, with every name.

@@ -13,7 +13,7 @@
 namespace rheonet::tool {
 namespace {
 
-/// What units measure, and the SI unit of it.
+/// Physical quantities with their SI units.
 constexpr std::pair<std::string_view, std::string_view> kinds[] = {
     {"length", "m"},
     {"mass", "kg"},
@@ -41,7 +41,7 @@ struct ListedUnit {
   std::string name, in_si;
 };
 
-/// The listed units of a kind.
+/// The listed units of the quantity with this SI unit.
 std::vector<ListedUnit> units_of(std::string_view si) {
   const Unit base = si == "1" ? Unit{} : unit_called(si);
   std::vector<ListedUnit> found;
@@ -57,7 +57,7 @@ std::string call(const ExpressionFunction& function) { return fmt::format("{}({}
 
 std::string example(const ExpressionFunction& function) { return fmt::format("{} = {}", function.example, function.example_value); }
 
-/// "a pure number", "an angle": what a function takes, and what it gives.
+/// The dimensions of a function's argument and of its value, as in "a pure number", "an angle".
 std::pair<std::string, std::string> dimensions(const ExpressionFunction& function) {
   const std::string_view words = words_of(function.rule), arrow = " -> ";
   const std::size_t at = words.find(arrow);

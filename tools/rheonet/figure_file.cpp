@@ -33,7 +33,7 @@ bool can_be_figure(const std::string& path, const char* option) {
     say("error: `{} {}` is neither an .svg nor a .png\n", option, printable(path));
     return false;
   }
-  // A pipe would be taken for ended by who reads it.
+  // Do not open a pipe to try it: its reader would see the end of the data at once.
   std::error_code error;
   const std::filesystem::file_type type = std::filesystem::status(path, error).type();
   const bool tried = type == std::filesystem::file_type::not_found || type == std::filesystem::file_type::regular ||

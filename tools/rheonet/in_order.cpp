@@ -13,9 +13,9 @@
 namespace rheonet::tool {
 namespace {
 
-constexpr std::size_t most_waiting = 256 << 20;             // bytes
-constexpr std::chrono::milliseconds longest_wait{100};      // as quick as a user's interrupt should work
-constexpr std::chrono::milliseconds between_notices{10};    // a wake-up costs as much as a tenth of a short run
+constexpr std::size_t most_waiting = 256 << 20;             // Size of the waiting texts [bytes].
+constexpr std::chrono::milliseconds longest_wait{100};      // Delay of the response to an interrupt.
+constexpr std::chrono::milliseconds between_notices{10};    // A wake-up takes about a tenth of the time of a short run.
 
 class InOrder {
  public:
@@ -32,7 +32,7 @@ class InOrder {
       end();
     }
     if (failure_) std::rethrow_exception(failure_);
-    // What was done when the end was called for.
+    // Take the texts that were finished before the stop.
     while (waiting_.contains(taken_) && take_ready()) {
     }
     return taken_;
@@ -44,7 +44,7 @@ class InOrder {
       long task = 0;
       {
         std::unique_lock lock(mutex_);
-        // The next task that is to be taken is never left waiting: it has been begun, or nothing waits.
+        // No deadlock: the task whose text is to be taken next has been started, unless no text waits.
         room_.wait(lock, [this] { return stop_ || bytes_ < most_waiting; });
         if (stop_ || next_ >= tasks_.end) return;
         task = next_++;
@@ -68,7 +68,7 @@ class InOrder {
     }
   }
 
-  /// Takes what comes next, if it comes soon; false if no more is wanted.
+  /// Takes the next text if it is ready within `longest_wait`. Returns false to stop.
   bool take_ready() {
     std::unique_lock lock(mutex_);
     ready_.wait_for(lock, longest_wait, [this] { return waiting_.contains(taken_) || stop_; });
@@ -96,14 +96,14 @@ class InOrder {
   const Tasks& tasks_;
   std::mutex mutex_;
   std::condition_variable ready_, room_;
-  std::map<long, std::string> waiting_;  ///< texts that are not taken yet
-  std::size_t bytes_ = 0;                ///< of these
-  long next_;                            ///< to be begun
-  long taken_;                           ///< to be taken
+  std::map<long, std::string> waiting_;  ///< Texts that are not taken yet.
+  std::size_t bytes_ = 0;                ///< Size of the waiting texts.
+  long next_;                            ///< Next task to start.
+  long taken_;                           ///< Next task whose text is to be taken.
   std::atomic<long> done_ = 0;
   std::atomic<bool> stop_ = false;
   std::exception_ptr failure_;
-  std::chrono::steady_clock::time_point last_notice_;  ///< to the thread that takes
+  std::chrono::steady_clock::time_point last_notice_;  ///< To the thread that takes the texts.
 };
 
 }  // namespace

@@ -15,16 +15,16 @@
 namespace rheonet::tool {
 namespace {
 
-// Time that a command has to end by itself: enough for many steps of a simulation, half of the 2 s that are promised.
+// Time for a command to end by itself: enough for many steps of a simulation, and half of the documented 2 s.
 constexpr std::chrono::milliseconds orderly_end{1000};
 
 std::atomic<bool> interrupted = false, ends_by_itself = false, reported = false;
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may touch nothing else, but post a semaphore");
 sem_t signalled;
 
-/// Ends the process while its other threads are still at work.
+/// Ends the process while its other threads are still running.
 [[noreturn]] void end_process() {
-  // Files end with a whole row: a write that has begun is completed, or its last half row is removed.
+  // Files must end with a complete row: a write in progress is completed, or its incomplete last row is removed.
   const std::string kept = Output::finish_all();
   if (!reported) say("{}error: interrupted\n{}", ::isatty(STDERR_FILENO) != 0 ? "\r\x1b[K" : "", kept);
   ::_exit(not_simulated);

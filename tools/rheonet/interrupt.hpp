@@ -4,23 +4,23 @@
 
 namespace rheonet::tool {
 
-/// From now on SIGINT and SIGTERM end the process with a message and exit status 1, whatever the process is busy with: a
-/// separate thread waits for the signal. A second signal kills the process at once.
+/// From now on SIGINT and SIGTERM end the process with a message and exit status 1. A separate thread waits for the signal, so that it
+/// works at any time. A second signal kills the process at once.
 ///
-/// Polling a flag in every long loop would be the other way; any loop without the check, a linear solver or a write to a
-/// stalled pipe would still ignore the signal.
+/// Polling a flag in every long loop is not enough: a loop without the check, a linear solver or a write to a stalled pipe would ignore
+/// the signal.
 void answer_signals();
 
 /// From now on a signal sets the returned flag, and the command has one second to end by itself with a better message (the
-/// simulated time, the number of runs done). After that second the thread ends the process as above. Either way files keep
-/// all whole rows up to there.
+/// simulated time, the number of runs done). After that second the thread ends the process as above. In both cases the files keep all
+/// complete rows written so far.
 const std::atomic<bool>& end_on_signals();
 
-/// The command has reported the interrupt, so the thread ends the process without another message.
+/// Call when the command has reported the interrupt: the thread then ends the process without another message.
 void interrupt_is_told();
 
-/// A reader that goes away and a limit on the size of files are from now on errors of write, with a message, instead of
-/// a silent death.
+/// From now on a closed pipe and an exceeded limit on the size of files are errors of `write`, with a message, instead of signals that kill
+/// the process silently.
 void fail_writes_with_errors();
 
 }  // namespace rheonet::tool

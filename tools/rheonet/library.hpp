@@ -5,11 +5,11 @@
 
 namespace rheonet::tool {
 
-/// The folders that `include = ["library/..."]` falls back on: the one that the environment variable RHEONET_LIBRARY
-/// names; without it the one installed beside the program; without that the netlists of the source tree.
+/// The folders that `include = ["library/..."]` falls back on: the folder in the environment variable RHEONET_LIBRARY; else the folder
+/// installed with the program; else the netlists of the source tree.
 std::vector<std::filesystem::path> library_folders();
 
-/// Where the program is that runs.
+/// The folder of the running program.
 std::filesystem::path program_folder();
 
 }  // namespace rheonet::tool

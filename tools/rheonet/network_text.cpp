@@ -66,7 +66,7 @@ std::array<std::string, 4> row_of(const SceneElement& element, const Scene& scen
       if (std::isnan(element.values[i]) || element.values[i] == element.values[i - 1]) continue;
       values.back() = fmt::format("{} = [{:.10g}, {:.10g}]{}", parameter.second_of, element.values[i - 1], element.values[i], unit == "1" ? "" : " " + unit);
     } else if (!parameter.same_as.empty() && !element.given[i]) {
-      continue;  // as that one; a `peak` makes a `breakaway` that differs from it
+      continue;  // Equal to the parameter `same_as`; a `peak` sets a `breakaway` that differs.
     } else if (!std::isnan(element.values[i]) && parameter.kind != Parameter::Kind::characteristic) {
       values.push_back(fmt::format("{} = {:.10g}{}", name, element.values[i], unit == "1" ? "" : " " + unit));
     }

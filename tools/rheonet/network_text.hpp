@@ -10,10 +10,10 @@ namespace rheonet::tool {
 /// "1 element", "2 elements".
 std::string count(std::size_t n, const char* one, const char* many);
 
-/// An element in words: its name, type, place and values, these in SI.
+/// An element as four cells: name, type, place and values in SI.
 std::array<std::string, 4> row_of(const SceneElement& element, const Scene& scene);
 
-/// The network as it was understood, every value in SI: what `check -v` prints.
+/// The network with every value in SI, as `check -v` prints it.
 std::string describe_network(const Scene& scene);
 
 }  // namespace rheonet::tool

@@ -9,7 +9,7 @@ class App;
 
 namespace rheonet::tool {
 
-/// Thrown for a command line that is wrong: what was found and what was expected, and the remedy, which may be empty.
+/// Thrown for an invalid command line. The message has what was found and what was expected; the hint has the remedy and may be empty.
 struct WrongCommandLine {
   std::string message;
   std::string hint;

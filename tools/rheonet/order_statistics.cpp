@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::uint64_t sign = std::uint64_t{1} << 63U;
 
-/// Whole numbers in the order of the doubles.
+/// Maps doubles to integers of the same order.
 std::uint64_t key_of(double value) {
   const auto bits = std::bit_cast<std::uint64_t>(value);
   return (bits & sign) != 0 ? ~bits : bits | sign;
@@ -27,18 +27,18 @@ OrderStatistics::OrderStatistics() : file_(std::tmpfile()) {
 }
 
 void OrderStatistics::add(double value) {
-  value += 0.0;  // no -0
+  value += 0.0;  // Turns -0 into 0.
   if (std::fwrite(&value, sizeof value, 1, file_.get()) != 1) fail();
   ++count_;
 }
 
 std::vector<double> OrderStatistics::of_ranks(const std::vector<long>& ranks) {
-  // Radix selection: each pass over the file counts, among the numbers that share the known leading bits of a rank's number, how
-  // often each value of the next bits occurs.
+  // Radix selection. The leading bits of the number at each rank are known; each pass over the file counts the values of the next bits
+  // among all numbers with the same leading bits.
   constexpr unsigned radix_bits = 8;
   struct Search {
     std::uint64_t prefix = 0;
-    long rank = 0;  ///< among the numbers with this prefix
+    long rank = 0;  ///< Rank among the numbers with this prefix.
   };
   std::vector<Search> searches;
   for (const long rank : ranks) searches.push_back({0, rank});

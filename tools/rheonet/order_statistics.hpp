@@ -7,18 +7,17 @@
 
 namespace rheonet::tool {
 
-/// Numbers of which the k-th smallest ones are asked for. They wait in a temporary file, so that the memory does not grow with
-/// their count.
+/// Exact order statistics of many numbers. The numbers are kept in a temporary file, so that memory does not grow with their count.
 class OrderStatistics {
  public:
-  /// Throws std::system_error if there can be no temporary file.
+  /// Throws std::system_error if no temporary file can be created.
   OrderStatistics();
 
-  /// A finite number. Throws std::system_error if the disk is full.
+  /// Adds a finite number. Throws std::system_error if the disk is full.
   void add(double value);
   long count() const { return count_; }
 
-  /// The numbers of these ranks, each from 1 to `count`, in ascending order of the ranks; exact. Throws std::system_error.
+  /// The numbers of these ranks, each from 1 (the smallest) to `count`, in ascending order of the ranks. Throws std::system_error.
   std::vector<double> of_ranks(const std::vector<long>& ranks);
 
  private:

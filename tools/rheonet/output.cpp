@@ -24,10 +24,10 @@
 namespace rheonet::tool {
 namespace {
 
-// How long the end of the process waits for a write to an output, or for the reader of a pipe.
+// Longest wait for a write in progress, or for the reader of a pipe, at the end of the process.
 constexpr std::chrono::milliseconds wait_at_end{200};
 
-/// The outputs that are open.
+/// The open outputs.
 struct Open {
   std::mutex mutex;
   std::vector<Output*> outputs;
@@ -68,7 +68,7 @@ Output::Output(const std::string& path, Writing writing)
     descriptor_ = ::open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
     if (descriptor_ < 0) throw std::system_error(errno, std::generic_category());
   }
-  // A stream of our own, because a plain one forgets why a write failed.
+  // A custom stream, because a standard one does not keep the error of a failed write.
   const cookie_io_functions_t functions{
       .read = nullptr,
       .write = [](void* self, const char* text,
@@ -92,7 +92,7 @@ Output::Output(const std::string& path, std::size_t bytes, long lines) : Output(
 Output::Output(const std::string& path, std::unique_ptr<TableWriter> table) : Output(path, Writing::complete) { table_ = std::move(table); }
 
 Output::~Output() {
-  abandoned_ = true;  // who has written everything has closed it
+  abandoned_ = true;  // An output that is complete has been closed before.
   close();
 }
 
@@ -121,7 +121,7 @@ int Output::begin() {
       write_beside();
       return 0;
     } catch (const std::system_error&) {
-      // A folder that takes no new file may hold one that can be written.
+      // The file may be writable even if no file can be created in its folder.
     }
   }
   const auto end = static_cast<off_t>(kept_);
@@ -172,20 +172,20 @@ long Output::write(const char* text, std::size_t size) {
   }
   const std::size_t written = put(text, size);
   lines_ += std::count(text, text + written, '\n');
-  const std::size_t whole = std::string_view(text, written).rfind('\n') + 1;  // 0 for none
+  const std::size_t whole = std::string_view(text, written).rfind('\n') + 1;  // 0: no complete row.
   begun_ = whole > 0 ? written - whole : begun_ + written;
   if (error_ != 0) drop_begun_row();
   return static_cast<long>(written);
 }
 
-/// The reader of a pipe takes nothing: writing PIPE_BUF bytes would wait for it.
+/// Whether the reader of a pipe is stalled, so that a write of PIPE_BUF bytes would block.
 bool Output::is_stalled() const {
   pollfd item{descriptor_, POLLOUT, 0};
   return ::poll(&item, 1, static_cast<int>(wait_at_end.count())) <= 0;
 }
 
 bool Output::finish() {
-  // Whoever is writing holds this lock, and may wait for the reader of a pipe for good. It is never given back.
+  // A writing thread holds this lock, and may be blocked by the reader of a pipe forever. The lock is never released.
   const auto until = std::chrono::steady_clock::now() + wait_at_end;
   while (::ftrylockfile(file_) != 0) {
     if (std::chrono::steady_clock::now() > until) return false;
@@ -193,7 +193,7 @@ bool Output::finish() {
   }
   finishing_ = true;
   if (writing_ == Writing::complete && path_ != "-") {
-    replacement_.reset();  // removes the temporary file: what it holds is not complete
+    replacement_.reset();  // Removes the temporary file, which is incomplete.
     if (created_) ::unlink(path_.c_str());
     return false;
   }
@@ -204,14 +204,14 @@ bool Output::finish() {
 
 std::string Output::finish_all() {
   Open& open = all_open();
-  open.mutex.lock();  // for good: none is opened or closed any more
+  open.mutex.lock();  // Never released: no output is opened or closed any more.
   std::string kept;
   for (Output* output : open.outputs)
     if (output->finish()) kept += output->kept("row");
   return kept;
 }
 
-// Half a number reads as another one.
+// An incomplete number could be read as a different number.
 void Output::drop_begun_row() {
   struct stat status {};
   if (begun_ == 0 || ::fstat(descriptor_, &status) != 0 || !S_ISREG(status.st_mode)) return;
@@ -243,7 +243,7 @@ int Output::close() {
     replacement_.reset();
   } else {
     left_alone_ = writing_ == Writing::complete && !touched_;
-    // Some file systems report only here that the disk is full.
+    // Some file systems report a full disk only here.
     if (::close(descriptor_) != 0 && error_ == 0) error_ = errno;
   }
   if (folder_ >= 0) ::close(folder_);
@@ -289,7 +289,7 @@ bool can_be_table(const std::string& path, const char* option, bool any_format) 
   const std::string ending = fs::path(path).extension().string();
   if (any_format && table_format(path)) return true;
   if (path == "-" || ending.empty() || ending == ".csv" || ending == ".txt" || ending == ".dat") return true;
-  if (fs::exists(path, failed) && !fs::is_regular_file(path, failed)) return true;  // a folder has a message of its own
+  if (fs::exists(path, failed) && !fs::is_regular_file(path, failed)) return true;  // A folder gets its own error message.
   say("error: `{} {}`: rows are written as {}, and `{}` is another format\n"
       "  name the file .csv (or .txt, .dat, or without an ending){}\n", option, printable(path), any_format ? "CSV, NetCDF or MAT" : "CSV", printable(ending),
       any_format ? ", .nc or .mat" : "");

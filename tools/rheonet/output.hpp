@@ -10,52 +10,51 @@
 
 namespace rheonet::tool {
 
-/// Where the results of a command go. It counts the rows, and remembers why a write failed (disk full, reader gone).
+/// The file or stream for the results of a command. It counts the rows and keeps the error of a failed write (disk full, pipe closed).
 class Output {
  public:
   enum class Writing {
-    as_it_comes,  ///< an existing file is emptied when the first row comes, not before; a full disk leaves whole rows
-    complete,     ///< `close` replaces an existing file if every write succeeded; else the file stays as it is
+    as_it_comes,  ///< The first row empties an existing file; a full disk leaves complete rows.
+    complete,     ///< `close` replaces an existing file if every write succeeded, and otherwise leaves it unchanged.
   };
 
   /// `path` "-" is standard output. Throws std::system_error if the file cannot be opened for writing.
   explicit Output(const std::string& path, Writing writing = Writing::as_it_comes);
-  /// A file whose first bytes are kept, so many with so many lines: what is written comes after them, and nothing of what
-  /// stood there is lost before.
+  /// Appends to the first `bytes` bytes (`lines` lines) of an existing file. The rest of the file is kept until the first write.
   Output(const std::string& path, std::size_t bytes, long lines);
-  /// A table of another format, into which the rows of CSV are turned. It takes the place of an existing file when it is closed.
+  /// Converts the rows of CSV into a table of another format, which replaces an existing file when it is closed.
   Output(const std::string& path, std::unique_ptr<TableWriter> table);
   ~Output();
   Output(const Output&) = delete;
   Output& operator=(const Output&) = delete;
 
-  /// Its buffer holds `buffered` bytes; who writes to it flushes it before a row would be split.
+  /// The stream to write to. Its buffer holds `buffered` bytes; flush it before a row would be split.
   std::FILE* file() { return file_; }
   static constexpr std::size_t buffered = 1 << 17;
   bool is_terminal() const;
-  const std::string& name() const { return name_; }          ///< for messages: "`out.csv`"
-  long rows() const { return lines_ > 0 ? lines_ - 1 : 0; }  ///< written so far, without the header
-  /// What of a task that ended early is in it, in words: "  the 3 rows up to there are in `out.csv`\n".
+  const std::string& name() const { return name_; }          ///< For messages: "`out.csv`".
+  long rows() const { return lines_ > 0 ? lines_ - 1 : 0; }  ///< Written so far, without the header.
+  /// A sentence on the rows of a task that ended early: "  the 3 rows up to there are in `out.csv`\n".
   std::string kept(const char* row) const;
 
-  /// Flushes all outputs of the process and blocks further writes, because the process is about to end. Any thread may call
-  /// it while others write. The text of `kept` for each output that has rows.
+  /// Flushes all outputs of the process and blocks further writes. Call it just before the process ends, on any thread, even while others
+  /// write. Returns the text of `kept` for each output that has rows.
   static std::string finish_all();
 
-  /// Closes. The error of this or any earlier write (errno), 0 if all is written.
+  /// Closes the output. Returns the error (errno) of this or any earlier write, 0 if all writes succeeded.
   int close();
-  /// Closes, and leaves a file that was there before as it was, if it is written only when complete.
+  /// Closes the output. With `Writing::complete`, an existing file stays unchanged.
   void abandon();
 
  private:
   bool finish();
   long write(const char* text, std::size_t size);
   bool is_stalled() const;
-  /// Before the first byte: makes room for it. The error (errno), 0 if it is done.
+  /// Empties the file before the first byte is written. Returns the error (errno) or 0.
   int begin();
-  /// Writes to a temporary file from now on.
+  /// Redirects all writes to a temporary file.
   void write_beside();
-  /// Writes to the file, or to the table, whatever its format; sets `error_`. How many bytes are written.
+  /// Writes to the file or to the table; sets `error_`. Returns the number of bytes written.
   std::size_t put(const char* text, std::size_t size);
   void drop_begun_row();
 
@@ -65,34 +64,33 @@ class Output {
   int descriptor_ = -1;
   int error_ = 0;
   long lines_ = 0;
-  std::size_t begun_ = 0;  ///< bytes written since the last whole row
+  std::size_t begun_ = 0;  ///< Bytes written since the last complete row.
   bool created_ = false;
   bool touched_ = false;
-  bool finishing_ = false;  ///< no write may wait for a reader any more
-  std::size_t kept_ = 0;  ///< bytes of an earlier writing
+  bool finishing_ = false;  ///< Writes no longer wait for a reader.
+  std::size_t kept_ = 0;  ///< Bytes of an existing file that are kept.
   Writing writing_;
   bool abandoned_ = false;
-  bool left_alone_ = false;  ///< closed without a change of the file
-  int folder_ = -1;       ///< of the file, while it is replaced
+  bool left_alone_ = false;  ///< Closed without a change of the file.
+  int folder_ = -1;       ///< Descriptor of the file's folder while the file is replaced.
   std::optional<Replacement> replacement_;
-  std::unique_ptr<TableWriter> table_;  ///< nullptr for CSV
+  std::unique_ptr<TableWriter> table_;  ///< nullptr for CSV.
 };
 
-/// Opens it; nullptr, and an error message, if that is not possible.
+/// Opens an output. Returns nullptr, after an error message, if that is not possible.
 std::unique_ptr<Output> open_output(const std::string& path, Output::Writing writing);
 
-/// The same for rows as they come after so many bytes, with so many lines, of an earlier writing.
+/// The same for rows that are appended to the first `bytes` bytes (`lines` lines) of an existing file.
 std::unique_ptr<Output> open_output_after(const std::string& path, std::size_t bytes, long lines);
 
-/// A table of the layout, in the format that the ending of the name says: rows go to the Output as CSV. Without a format of its own
-/// it is CSV.
+/// Opens a table in the format of the file's ending, CSV if the ending is not that of another format. Rows are written to the Output as CSV.
 std::unique_ptr<Output> open_table(const std::string& path, Output::Writing writing, tables::Layout layout);
 
-/// Writes a text and closes; false, and an error message, if not all is written. `row`: what a line of it is called.
+/// Writes a text and closes. Returns false, after an error message, if it could not be written completely. `row` is the word for a line.
 bool write_all(Output& output, const std::string& text, const char* row);
 
-/// Whether rows can go to a file of this name, as CSV, or if `any_format` in one of the formats of `table_format`. Says so if it ends
-/// as another format does; `option` is what names it: "--output".
+/// Whether rows can be written to a file of this name, as CSV, or with `any_format` also in the formats of `table_format`. Prints an error
+/// if the ending is that of another format. `option` is the option that names the file: "--output".
 bool can_be_table(const std::string& path, const char* option, bool any_format = false);
 
 }  // namespace rheonet::tool

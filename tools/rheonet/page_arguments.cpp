@@ -7,7 +7,7 @@
 namespace rheonet::tool {
 namespace {
 
-/// What is wrong with an origin, which goes into a header of HTTP; "" if nothing is.
+/// The error in an origin, which is copied into an HTTP header; "" if it is valid.
 std::string fault_of_origin(const std::string& origin) {
   static const std::regex form(R"(\*|https?://[A-Za-z0-9.-]+(:[0-9]+)?|https?://\[[0-9a-fA-F:]+\](:[0-9]+)?)");
   return std::regex_match(origin, form) ? "" : "an origin is as in https://school.example or http://localhost:8000, without a path; * is every page";
@@ -44,7 +44,7 @@ void add_serve_options(CLI::App& command, ServeArguments& serve) {
       ->check(CLI::Range(64, 1 << 20))
       ->type_name("N");
   command.add_flag("--open", serve.open, "open the page in the browser");
-  command.add_flag("--worker", serve.worker)->group("");  // for the server itself
+  command.add_flag("--worker", serve.worker)->group("");  // For the server itself.
 }
 
 }  // namespace rheonet::tool

@@ -17,7 +17,7 @@ namespace rheonet::tool {
 namespace {
 
 class CsvSource final : public PlotSource {
-  static constexpr std::size_t room = 12;  // curves that can be told apart, as of the columns that nobody chose
+  static constexpr std::size_t room = 12;  // Largest number of distinguishable curves, as in chosen_columns.
 
  public:
   CsvSource(const std::string& file, const Arguments& arguments)
@@ -44,7 +44,7 @@ class CsvSource final : public PlotSource {
   }
 
  private:
-  /// Positions of the runs that a figure has room for, spread evenly from the first to the last.
+  /// Positions of at most `room` runs, evenly spaced from the first to the last.
   std::vector<std::size_t> some_runs() const {
     const std::size_t count = csv_.runs().size();
     std::vector<std::size_t> runs;
@@ -56,7 +56,7 @@ class CsvSource final : public PlotSource {
   plot::CsvFile csv_;
 };
 
-/// Whether a scene has what a path such as `k1.force` is about.
+/// Whether a scene has the element or node of a path such as `k1.force`.
 bool has(const Scene& scene, const std::string& path) {
   const std::string subject = path.substr(0, path.rfind('.'));
   const auto named = [&](const auto& all) {
@@ -70,7 +70,7 @@ class SceneSource final : public PlotSource {
   SceneSource(const std::string& file, const Arguments& arguments, const std::vector<std::string>& wanted,
               bool lenient) {
     ReadOptions options = options_of(arguments);
-    options.claims = false;  // a picture is asked for, not a verdict
+    options.claims = false;  // A plot does not evaluate claims.
     options.plotted = wanted.empty();
     if (!lenient) options.records = wanted;
     read_ = read_scene(file, declarations(), options);

@@ -11,7 +11,7 @@
 
 namespace rheonet::tool {
 
-/// What curves come from: a scene, which is simulated, or a CSV file.
+/// Source of curves: a scene, which is simulated, or a CSV file.
 class PlotSource {
  public:
   virtual ~PlotSource() = default;
@@ -19,20 +19,20 @@ class PlotSource {
   const std::string& file() const { return file_; }
   const std::string& title() const { return title_; }
   const std::vector<plot::Column>& columns() const { return columns_; }
-  /// What a scene wants drawn, if that was left to it.
+  /// The scene's `[plot]`, if the command line names no curves.
   const PlotTable& own() const { return own_; }
 
-  /// Whether a column has a number in any row: one of words has not.
+  /// Whether a column has a number in any row. A column of words has none.
   virtual bool has_numbers(std::size_t) const { return true; }
 
   /// A curve of a pair of columns.
   struct Drawn {
-    std::size_t pair;  ///< its position
-    std::string run;   ///< what tells a run of a sweep from the others: "c1.damping = 2 N·s/m"; "": there is but one
+    std::size_t pair;  ///< Position of the pair.
+    std::string run;   ///< Label of a run of a sweep: "c1.damping = 2 N·s/m"; "": there is only one run.
     plot::Trace trace;
   };
-  /// Goes through the rows: traces in SI for each pair of columns, one for each run of a sweep. Throws plot::Mistake; PlotEnded
-  /// if a scene cannot be simulated.
+  /// Reads the rows: for each pair of columns a trace in SI for each run of a sweep. Throws plot::Mistake; PlotEnded if a scene cannot be
+  /// simulated.
   virtual std::vector<Drawn> read(const std::vector<plot::ColumnPair>& pairs) = 0;
 
  protected:
@@ -41,17 +41,17 @@ class PlotSource {
   PlotTable own_;
 };
 
-/// Ends the command: what there is to say has been said.
+/// Thrown to end the command after its messages have been printed.
 struct PlotEnded {
   ExitStatus status;
 };
 
-/// Opens a file: a scene if it ends in `.toml`. `wanted` are the paths that a scene is to record besides its own; those
-/// that it has no element or node for are passed over if `lenient`. Throws plot::Mistake and PlotEnded.
+/// Opens a file: a scene if its name ends in `.toml`. The scene records the paths `wanted` in addition to its own records. With `lenient`,
+/// paths of elements and nodes that the scene does not have are ignored. Throws plot::Mistake and PlotEnded.
 std::unique_ptr<PlotSource> open_plot_source(const std::string& file, const Arguments& arguments,
                                              const std::vector<std::string>& wanted, bool lenient);
 
-/// The columns of a scene's rows: `time`, and its records.
+/// The columns of a scene's rows: `time` and its records.
 std::vector<plot::Column> columns_of(const Scene& scene);
 
 }  // namespace rheonet::tool

@@ -6,9 +6,9 @@
 namespace rheonet::tool {
 namespace {
 
-constexpr unsigned index_bits = 24;  // of the numbers of points: at most 10 million
+constexpr unsigned index_bits = 24;  // Bits of a point's number: at most 10 million points.
 
-/// SplitMix64 (Steele, Lea and Flood, OOPSLA 2014): the number of a place in a sequence, the same on every machine.
+/// SplitMix64 (Steele, Lea and Flood, OOPSLA 2014): a hash, the same on every machine.
 std::uint64_t mixed(std::uint64_t z) {
   z += 0x9E3779B97F4A7C15U;
   z = (z ^ (z >> 30U)) * 0xBF58476D1CE4E5B9U;
@@ -20,7 +20,7 @@ std::uint64_t random_bits(std::uint64_t seed, std::uint64_t number, std::uint64_
   return mixed(mixed(mixed(seed) ^ number) ^ axis);
 }
 
-/// Of [0, 1): 53 bits, as many as a double has.
+/// Uniform in [0, 1), with the 53 bits of a double's mantissa.
 double unit_interval(std::uint64_t bits) { return static_cast<double>(bits >> 11U) * 0x1p-53; }
 
 /// A permutation of 0 .. count - 1 that is computed one number at a time: a Feistel network on the next even number of bits,
@@ -41,12 +41,12 @@ std::uint64_t permuted(std::uint64_t number, std::uint64_t count, std::uint64_t 
   return number;
 }
 
-/// Nested uniform scrambling (Owen, MCQMC 1995): each bit is flipped or not as a coin says that belongs to the bits before it. The
-/// numbers of the points have `index_bits` bits, and so many leading bits tell the points apart: the bits behind are random.
+/// Nested uniform scrambling (Owen, MCQMC 1995): each bit is flipped at random, with a random number that depends on the bits before it.
+/// The points have `index_bits` significant leading bits; all bits after them are random.
 std::uint64_t scrambled(std::uint64_t bits, std::uint64_t seed, std::uint64_t axis) {
   std::uint64_t result = 0;
   for (unsigned k = 0; k < index_bits; ++k) {
-    const std::uint64_t before = (std::uint64_t{1} << k) | (bits >> 1U >> (63 - k));  // the leading 1 says how many
+    const std::uint64_t before = (std::uint64_t{1} << k) | (bits >> 1U >> (63 - k));  // The leading 1 encodes the number of bits.
     const std::uint64_t bit = (bits >> (63 - k)) ^ (random_bits(seed, before, axis) >> 63U);
     result = (result << 1U) | (bit & 1U);
   }
@@ -61,7 +61,7 @@ Points::Points(Kind kind, std::uint64_t seed, std::uint64_t count, std::size_t d
   boost::random::sobol engine(dimension);
   directions_.resize(dimension);
   for (unsigned k = 0; k < index_bits; ++k) {
-    // The engine skips the point at 0, and takes the others in the order of Gray's code: there this one is 2^k alone.
+    // The engine skips the point at 0 and generates the others in Gray code order, in which this point has the code 2^k.
     engine.seed((std::uint64_t{2} << k) - 2);
     for (std::vector<std::uint64_t>& axis : directions_) axis.push_back(engine());
   }

@@ -35,7 +35,7 @@ ExitStatus draw(const Scene& scene, const PriceList& list, const std::string& pa
 
 ExitStatus price_scene(const Arguments& arguments) {
   ReadOptions options = options_of(arguments);
-  options.claims = false;  // they are about the scene's own accuracy
+  options.claims = false;  // Claims hold for the scene's own accuracy.
   const ReadResult read = read_and_report(arguments.scene, options);
   if (!read.scene) return wrong_input;
   Scene scene = *read.scene;
@@ -60,7 +60,7 @@ ExitStatus price_scene(const Arguments& arguments) {
   });
   if (!simulated) return not_simulated;
   const std::string text = describe(scene, arguments.scene, list);
-  // Data on standard output are for a program to read: the report is then a message beside them.
+  // If data or figure go to standard output, print the report on standard error.
   arguments.overlay == "-" || arguments.figure == "-" ? say("{}", text) : fmt::print("{}", text);
   if (output && !write_all(*output, table(scene, list), "row")) return not_simulated;
   return arguments.figure.empty() ? done : draw(scene, list, arguments.figure);

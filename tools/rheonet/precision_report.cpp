@@ -18,14 +18,14 @@ namespace {
 
 using Rows = std::vector<std::vector<std::string>>;
 
-// An error that is no larger than so many times what the reference and its check differ by is not known.
+// An error is known only if it exceeds this multiple of the difference between the reference and its check.
 constexpr double told = 2;
-// A run as tight as it can be is not this far from a true closed form.
+// A closed form is doubtful if the tightest run has a larger relative difference from it.
 constexpr double doubtful_form = 1e-6;
 
 std::string error_number(double value) { return value == 0 ? "0" : fmt::format("{:.1e}", value); }
 
-/// The least error of the worst record of a price that is known.
+/// The smallest error that can be determined for the worst record of a price.
 double least_known(const PriceList& list, const Price& price) {
   return price.errors.empty() ? 0 : told * list.doubt[price.worst].relative();
 }
@@ -43,7 +43,7 @@ std::string spread(const Price& price) {
   return fmt::format("+-{:.0f} %", 100 * half / median(price));
 }
 
-/// What ten times the accuracy costs from here on, in parts of what this costs.
+/// The cost of one more digit, relative to the cost of this price.
 std::string next_digit(const Price& price, const Price* next, double (*cost)(const Price&)) {
   if (!next || !next->failure.empty() || !(cost(price) > 0)) return "-";
   const double digits = std::log10(price.setting.tolerance / next->setting.tolerance);
@@ -82,7 +82,7 @@ std::string table_of(const Scene& scene, const PriceList& list, const std::vecto
   return aligned(rows) + failures;
 }
 
-/// By what errors are measured, and how good that is.
+/// The reference for the errors and its own accuracy, as text.
 std::string yardstick_words(const Scene& scene, const PriceList& list) {
   std::string text;
   if (scene.exact.size() < scene.records.size()) {
@@ -109,7 +109,7 @@ const std::string& name_of_method(const PriceList& list, const Price& price) {
   return list.methods[static_cast<std::size_t>(price.setting.method)];
 }
 
-/// "accuracy = 1e-05, order up to 3".
+/// As in "accuracy = 1e-05, order up to 3".
 std::string name_of_price(const PriceList& list, const Price& price) {
   return fmt::format("accuracy = {:g}", price.setting.tolerance) +
          (price.setting.method == 0 ? "" : ", " + printable(name_of_method(list, price)));
@@ -167,7 +167,7 @@ std::string table(const Scene& scene, const PriceList& list) {
 }
 
 std::vector<plot::Measured> curves(const PriceList& list) {
-  // A logarithmic axis has no place for an error of 0: there is none but for rounding.
+  // A logarithmic axis cannot show an error of 0; draw it at round-off level.
   constexpr double rounding = std::numeric_limits<double>::epsilon();
   const plot::Column error{"error", plot::measure("largest error, of the magnitude of its record", "1")};
   const std::pair<plot::Column, double (*)(const Price&)> costs[] = {{{"CPU time", plot::measure("CPU time", "s")}, median},

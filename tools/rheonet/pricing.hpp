@@ -8,7 +8,7 @@
 
 namespace rheonet::tool {
 
-/// Another model of what a scene describes.
+/// Another model of the system that a scene describes.
 struct Variant {
   std::string name;
   Scene scene;
@@ -18,15 +18,15 @@ struct Variant {
 /// if the variant does not record one of them, or records another quantity.
 void take_records(const Scene& scene, const std::vector<std::string>& paths, Variant& variant);
 
-/// Variants as methods of a price list. All get one time base, the scene too. Throws NotComparable.
+/// Variants as methods of a price list. All variants and `scene` get one time base. Throws NotComparable.
 std::vector<SimulationMethod> methods_of(std::vector<Variant> variants, Scene& scene);
 
-/// What the command `precision` and the Python package measure.
+/// Measurements that the command `precision` or the Python package asks for.
 struct PricingWanted {
-  std::vector<double> accuracies = {};       ///< empty: 1e-2 to 1e-11; the scene's own is always among them
-  bool variants = false;                     ///< lower orders, events not located, reductions switched off, ...
-  bool certified = false;                    ///< certified runs too
-  std::vector<SimulationMethod> models = {}; ///< see methods_of
+  std::vector<double> accuracies = {};       ///< Empty: 1e-2 to 1e-11. The scene's own is always added.
+  bool variants = false;                     ///< Add lower orders, events not located, reductions switched off, ...
+  bool certified = false;                    ///< Add certified runs.
+  std::vector<SimulationMethod> models = {}; ///< See methods_of.
 };
 
 /// The tolerances and methods of a price list. Runs the scene if `variants` are asked for; throws SimulationError then.

@@ -16,7 +16,7 @@ int run_program(int count, char** words, const std::function<ExitStatus(const Ar
     const std::variant<Arguments, ExitStatus> read = read_arguments({words + 1, words + count});
     if (const ExitStatus* status = std::get_if<ExitStatus>(&read)) return *status;
     const Arguments& arguments = std::get<Arguments>(read);
-    if (!arguments.serve.worker) answer_signals();  // a worker writes no file, and its server says what ended it
+    if (!arguments.serve.worker) answer_signals();  // A worker writes no file, and its server reports why it ended.
     const ExitStatus status = command(arguments);
     if (std::fflush(stdout) != 0) {
       say("error: cannot write to standard output\n");

@@ -6,7 +6,7 @@
 
 namespace rheonet::tool {
 
-/// A program's `main`: reads its command line, has it carried out, and says what went wrong.
+/// The body of a program's `main`: reads the command line, calls `command`, and prints errors.
 int run_program(int count, char** words, const std::function<ExitStatus(const Arguments&)>& command);
 
 }  // namespace rheonet::tool

@@ -11,8 +11,8 @@
 namespace rheonet::tool {
 namespace {
 
-constexpr std::chrono::milliseconds patience{500};  // a run shorter than this needs no bar
-constexpr std::chrono::milliseconds interval{100};  // smooth to the eye, no load
+constexpr std::chrono::milliseconds patience{500};  // Shorter runs show no bar.
+constexpr std::chrono::milliseconds interval{100};  // Time between updates.
 constexpr int width = 40;                           // characters
 
 }  // namespace
@@ -32,7 +32,7 @@ void Progress::update(double fraction) {
   const int filled = static_cast<int>(fraction * width);
   const double spent = std::chrono::duration<double>(now - start_).count();
   const std::string left = fraction > 0 ? in_time_units(spent / fraction - spent) + " left" : "";
-  // To the start of the line, and clear what stands after the text.
+  // Return to the start of the line, print, and clear the rest of the line.
   say("\r[{:#<{}}{:-<{}}] {:3.0f} %  {}\x1b[K", "", filled, "", width - filled, 100 * fraction, left);
 }
 

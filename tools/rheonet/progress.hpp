@@ -4,8 +4,8 @@
 
 namespace rheonet::tool {
 
-/// A bar on standard error with the time that is left. It shows itself only on a terminal, only when a run is long
-/// enough to wonder about, and is gone at the end.
+/// A progress bar on standard error with the remaining time. It appears only on a terminal, only in runs longer than half a second, and
+/// is erased at the end.
 class Progress {
  public:
   explicit Progress(bool wanted);
@@ -13,7 +13,7 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// `fraction` of the work is done, 0 to 1. May be called at every step.
+  /// Sets the fraction of the work that is done, 0 to 1. May be called at every step.
   void update(double fraction);
   /// Removes the bar, so that a message can be printed.
   void erase();

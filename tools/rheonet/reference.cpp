@@ -12,7 +12,7 @@
 namespace rheonet::tool {
 namespace {
 
-/// A parameter in words, for both forms of the reference.
+/// A parameter as text, for both forms of the reference.
 struct Row {
   std::string name, symbol, quantity, units, bounds, fallback, description;
 };
@@ -25,11 +25,11 @@ const Parameter* find_parameter(const Declaration& declaration, const std::strin
   return found == declaration.parameters.end() ? nullptr : &*found;
 }
 
-// A damping whose unit goes with a flow index is printed with the symbol of that index: N*(s/m)^n.
+// A damping whose unit depends on a flow index is printed with the symbol of the index: N*(s/m)^n.
 std::string unit(const Parameter& parameter, const Declaration& declaration, Domain domain) {
   const Parameter* index = find_parameter(declaration, parameter.flow_index);
   if (index == nullptr) return unit_of(parameter.quantity, domain);
-  const std::string sample = "0.5";  // any index but 1, to have its exponent printed
+  const std::string sample = "0.5";  // Any index other than 1, so that the exponent is printed.
   std::string text = unit_of(parameter.quantity, domain, 0.5);
   if (const std::size_t at = text.rfind(sample); at != std::string::npos) {
     text.replace(at, sample.size(), index->symbol.empty() ? index->name : index->symbol);
@@ -116,7 +116,7 @@ std::string ports(const Declaration& declaration) {
   return "";
 }
 
-/// Finite values at which a limit applies, but for the one or two that are infinite there; empty for a limit at 0.
+/// The parameter values at which a limit applies, finite except for one or two infinite ones; empty for a limit at 0.
 std::vector<double> values_at(const Limit& limit, const Declaration& declaration) {
   const std::size_t count = declaration.parameters.size();
   for (std::size_t i = 0; i < count; ++i) {
@@ -144,7 +144,7 @@ std::string becomes(const Limit& limit, const Declaration& declaration) {
   return find_component(limit.becomes)->hidden ? "a " + limit.becomes : fmt::format("a `{}`", limit.becomes);
 }
 
-/// The effects of an element, each with the value that leaves it out: "inertia (without it `mass = 0`)".
+/// The effects of an element, each with the value that removes it: "inertia (without it `mass = 0`)".
 std::string effects_of(const Declaration& d) {
   std::vector<std::string> parts;
   for (const Brought& b : d.effects) {
@@ -160,10 +160,10 @@ std::string effects_of(const Declaration& d) {
   return text;
 }
 
-/// The notes, each of them one line of the declaration.
+/// The notes, one for each line of the declaration.
 std::vector<std::string> notes(const Declaration& d) { return d.notes.empty() ? std::vector<std::string>{} : split(d.notes, '\n'); }
 
-// Stars outside code would set what stands between them in italics.
+// Escapes stars outside code, which would set text in italics.
 std::string prose(const std::string& text) {
   std::string result;
   bool code = false;
@@ -175,14 +175,14 @@ std::string prose(const std::string& text) {
   return result;
 }
 
-// From a capital letter to a full stop; a name in backquotes stays as it is.
+// Adds a capital letter and a full stop; a name in backquotes is not changed.
 std::string sentence(std::string text) {
   if (text.empty()) return text;
   text.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(text.front())));
   return text.ends_with('.') ? text : text + '.';
 }
 
-// Names and units as code, each of two alternatives for itself.
+// Names and units as code; alternatives separated by a bar are quoted separately.
 std::string code(const std::string& text) {
   const std::size_t bar = text.find(" | ");
   if (text == "-" || text == "any" || text.starts_with("of the ")) return text;
@@ -190,7 +190,7 @@ std::string code(const std::string& text) {
   return "`" + text.substr(0, bar) + "` | `" + text.substr(bar + 3) + "`";
 }
 
-// A bar would end the cell of a table.
+// Escapes bars, which would end the cell of a table.
 std::string cell(std::string text) {
   for (std::size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += 2) text.insert(at, "\\");
   return text;

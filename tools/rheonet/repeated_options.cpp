@@ -24,7 +24,7 @@ std::vector<std::string> with_every_option(const std::vector<std::string>& words
   constexpr std::pair<const char*, bool (*)(const std::string&)> options[] = {
       {"--set", is_override}, {"--vary", is_override}, {"--measure", is_measure}, {"--merge", is_shard_file}};
   std::vector<std::string> result;
-  std::string goes_on;  // the option that may be repeated without its name
+  std::string goes_on;  // The option that the following words belong to.
   for (const std::string& word : words) {
     std::string before;
     before.swap(goes_on);

@@ -15,8 +15,8 @@
 namespace rheonet::tool {
 namespace {
 
-/// Gives the new file the owner and the mode of the old one. Only root may give files away; for others the owner stays theirs,
-/// as it does in an editor.
+/// Gives the new file the owner and the mode of the old one. Only root can change the owner; for other users the new file is theirs, as
+/// with an editor.
 int take_over(int descriptor, const struct stat& old) {
   if (::fchown(descriptor, old.st_uid, old.st_gid) != 0 && errno != EPERM) return errno;
   constexpr mode_t permissions = S_IRWXU | S_IRWXG | S_IRWXO;
@@ -46,12 +46,12 @@ int Replacement::commit() {
   struct stat old {};
   const bool is_new = ::fstatat(folder_, name_.c_str(), &old, AT_SYMLINK_NOFOLLOW) != 0 || !S_ISREG(old.st_mode);
   if (const int error = is_new ? 0 : take_over(descriptor_, old); error != 0) return error;
-  // A disk that is full may say so only here.
+  // A full disk may be reported only here.
   if (::fsync(descriptor_) != 0) return errno;
   if (const int closed = ::close(std::exchange(descriptor_, -1)); closed != 0) return errno;
   if (::renameat(folder_, temporary_.c_str(), folder_, name_.c_str()) != 0) return errno;
   committed_ = true;
-  // The name is an entry of the folder. Some file systems cannot write a folder by itself.
+  // The name is an entry of the folder, which must reach the disk too. Some file systems cannot sync a folder.
   return ::fsync(folder_) == 0 || errno == EINVAL ? 0 : errno;
 }
 

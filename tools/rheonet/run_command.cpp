@@ -32,14 +32,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Two streams into one file would overwrite each other.
+// Two streams to one file would overwrite each other.
 bool same_file(const std::string& path, const std::string& other) {
   std::error_code error;
   if (path == "-" || other == "-") return path == other;
   return fs::equivalent(path, other, error) && fs::is_regular_file(path, error);
 }
 
-/// Whether two outputs go to one file, once it exists; says so if they do.
+/// Whether two outputs go to the same file; prints an error if so.
 bool write_to_one_file(const Arguments& arguments) {
   const std::pair<const char*, const std::string&> outputs[] = {
       {"--output", arguments.output}, {"--events", arguments.events}, {"--plot", arguments.figure}};
@@ -54,13 +54,13 @@ bool write_to_one_file(const Arguments& arguments) {
   return false;
 }
 
-/// Where a run writes to.
+/// The output files of a run.
 struct Outputs {
-  std::unique_ptr<Output> rows, events;  ///< events: nullptr if nobody asks for them
+  std::unique_ptr<Output> rows, events;  ///< `events` is nullptr if not requested.
 
   std::string kept() const { return rows->kept("row") + (events ? events->kept("event") : ""); }
 
-  /// Closes both; false, and an error message, if not all is written.
+  /// Closes both. Returns false, after an error message, if a write failed.
   bool close() const {
     const int errors[] = {rows->close(), events ? events->close() : 0};
     if (errors[0] == 0 && errors[1] == 0) return true;
@@ -69,7 +69,7 @@ struct Outputs {
     return false;
   }
 
-  /// Closes both, and leaves files that were there before as they were.
+  /// Closes both and leaves existing files unchanged.
   void abandon() const {
     rows->abandon();
     if (events) events->abandon();
@@ -86,12 +86,13 @@ tables::Layout layout_of(const Scene& scene, const std::vector<std::string>& sen
   return layout;
 }
 
-/// A figure must not change the rows of a run: one is integrated in parts, or certified, only if nobody looks between its rows.
+/// Whether the states between the rows may be observed for the figure. A figure must not change the rows: a run that is certified, or
+/// integrated in parts, allows no such observer.
 bool is_looked_into(const Scene& scene, const Arguments& arguments) {
   return !arguments.certify && divide(scene, {}).subscenes.empty();
 }
 
-/// The figure of a run between whose rows nobody has looked, with its jumps upright: it is gone through once more for that.
+/// Simulates once more for the figure of a run whose states between the rows were not observed, so that jumps are vertical.
 void draw_again(const Scene& scene, const Presentation& presentation, const RunSettings& before, std::optional<RunFigure>& figure) {
   figure.emplace(scene, presentation.plot);
   BothSides sides([&figure](double time, const std::vector<double>& values) { figure->row(time, values); });
@@ -115,7 +116,7 @@ ExitStatus run_scene(const Arguments& arguments) {
 
   const std::atomic<bool>& interrupted = end_on_signals();
   Outputs outputs;
-  // The rows that are certified come when they are known to be good: an earlier result stays until then.
+  // Certified rows are written when the certificate holds; an earlier file is kept until then.
   const auto writing = arguments.certify ? Output::Writing::complete : Output::Writing::as_it_comes;
   outputs.rows = open_table(arguments.output, writing, layout_of(*read.scene, arguments.sensitivities));
   if (!outputs.rows) return wrong_input;
@@ -128,7 +129,7 @@ ExitStatus run_scene(const Arguments& arguments) {
   std::optional<RunFigure> figure;
   BothSides sides([&figure](double time, const std::vector<double>& values) { figure->row(time, values); });
   if (drawn) figure.emplace(*read.scene, read.presentation.plot);
-  // Rows that scroll by on the same terminal say enough.
+  // No progress bar if rows scroll by on the same terminal.
   Progress progress(!arguments.quiet && !outputs.rows->is_terminal());
   const auto on_progress = [&progress](double fraction) { progress.update(fraction); };
   try {
@@ -164,7 +165,7 @@ ExitStatus run_scene(const Arguments& arguments) {
     progress.erase();
     if (arguments.certify && interrupted) outputs.abandon();
     const bool closed = outputs.close();
-    // Why a file could not be written has then been said, with its name.
+    // If closing failed, the error has been printed with the name of the file.
     if (closed || !dynamic_cast<const WriteError*>(&error)) report(error, read.sources);
     if (closed) say("{}", outputs.kept());
     if (figure) figure->write_beginning(arguments.figure);

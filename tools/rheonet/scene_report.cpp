@@ -15,7 +15,7 @@ namespace {
 
 using nlohmann::json;
 
-/// What is told of a certificate: whether it holds, and the error of each record.
+/// The message on a certificate: whether it holds, and the error of each record.
 std::string certificate_message(const Scene& scene, const Certificate& certificate) {
   json records = json::array();
   for (std::size_t k = 0; k < certificate.errors.size(); ++k) {
@@ -35,7 +35,7 @@ std::string certificate_message(const Scene& scene, const Certificate& certifica
                           {"records", records}});
 }
 
-/// A price list in short, for the page; nothing, with a failure in `made`, if the scene has none.
+/// A short price list for the page. Returns nothing, with a failure added to `made`, if it cannot be computed.
 std::optional<std::string> price_in_short(const Scene& scene, const std::string& file, const std::atomic<bool>* interrupt, SceneReport& made) {
   try {
     PriceListSettings settings;

@@ -12,19 +12,19 @@ namespace rheonet::tool {
 
 struct SceneReportWanted {
   bool certify = false;
-  bool precision = false;  ///< also what accuracy costs
+  bool precision = false;  ///< Add a measurement of CPU time against error.
   const std::atomic<bool>* interrupt = nullptr;
 };
 
 /// A scene's part of a report.
 struct SceneReport {
-  std::vector<std::string> messages;       ///< for report::document
-  std::vector<std::string> failures;       ///< what the scene did not do as it should, each a line
-  std::optional<Certificate> certificate;  ///< if it was asked for
+  std::vector<std::string> messages;       ///< For report::document.
+  std::vector<std::string> failures;       ///< One line for each failure of the scene.
+  std::optional<Certificate> certificate;  ///< Present if it was requested.
 };
 
-/// Simulates a scene for a report; `file` is what the scene is called. Adds to what it records. Throws SimulationError on an interrupt, or
-/// if the scene is to be certified and cannot be simulated.
+/// Simulates a scene for a report; `file` is the name of the scene. Adds records to the scene. Throws SimulationError on an interrupt, or if
+/// the scene is to be certified and cannot be simulated.
 SceneReport report_scene(ReadResult& read, const std::string& file, const SceneReportWanted& wanted);
 
 }  // namespace rheonet::tool

@@ -4,12 +4,11 @@
 
 namespace rheonet::tool {
 
-/// A part of the runs of a sweep: consecutive runs, as many as in each other shard, or one more or less. Some shards are empty if
-/// there are more shards than runs.
+/// A part of a sweep: consecutive runs. The sizes of shards differ by at most one; if there are more shards than runs, some are empty.
 struct Shard {
-  long number = 1, of = 1;  ///< 1 <= number <= of
+  long number = 1, of = 1;  ///< 1 <= number <= of.
 
-  long first(long runs) const { return runs * (number - 1) / of; }  ///< runs count from 0
+  long first(long runs) const { return runs * (number - 1) / of; }  ///< Runs count from 0.
   long end(long runs) const { return runs * number / of; }
   bool operator==(const Shard&) const = default;
 };

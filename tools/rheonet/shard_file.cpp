@@ -20,7 +20,7 @@
 namespace rheonet::tool {
 namespace {
 
-/// CRC-64 of ECMA-182, as xz computes it, of texts and of where each ends.
+/// CRC-64 of ECMA-182, as in xz, of null-terminated texts.
 class CheckSum {
  public:
   void add(const std::string& text) { sum_.process_bytes(text.c_str(), text.size() + 1); }
@@ -39,7 +39,7 @@ NoVariation no_shard(const std::string& file, const std::string& what, const std
   return {fmt::format("`--merge`: `{}` {}", file, what), hint};
 }
 
-/// Which shard a first line is of, apart from the rest of the line.
+/// The shard that a first line names; the rest of the line is not checked.
 std::optional<Shard> shard_of(const std::string& line) {
   const std::size_t begin = line.find(" shard ");
   if (!line.starts_with("# rheonet ") || begin == line.npos) return {};
@@ -101,7 +101,7 @@ std::variant<std::vector<Part>, NoVariation> all_parts(const std::vector<std::st
                      fmt::format("simulate them with `--shard {}/{}`, then merge all", missing.front(), first->shard.of)};
 }
 
-/// Reads the rows of a shard: `take` gets them in pieces. False if it stopped.
+/// Reads the rows of a shard and passes them to `take` in pieces. Returns false if `take` does.
 std::variant<bool, NoVariation> read_rows(const Part& part, long runs, const std::string& header, const std::function<bool(const std::string&)>& take) {
   constexpr std::size_t piece = 1 << 16;
   std::ifstream in(part.file, std::ios::binary);
@@ -110,7 +110,7 @@ std::variant<bool, NoVariation> read_rows(const Part& part, long runs, const std
   std::getline(in, line);
   if (line + '\n' != header) return no_shard(part.file, "has other columns than this sweep");
   const std::string end = last_line(part.shard);
-  long run = part.shard.first(runs);  // the next one
+  long run = part.shard.first(runs);  // The next run.
   const long behind = part.shard.end(runs);
   for (long number = 3; std::getline(in, line); ++number) {
     line += '\n';
@@ -121,7 +121,7 @@ std::variant<bool, NoVariation> read_rows(const Part& part, long runs, const std
     long found = 0;
     const auto read = std::from_chars(line.data(), line.data() + line.size(), found);
     const bool is_row = read.ec == std::errc() && *read.ptr == ',';
-    // Rows of a run follow one another: those of the next one may begin.
+    // Rows are in the order of the runs: each belongs to the same run as the row before it, or to the next run.
     if (!is_row || (found != run && found != run + 1) || found > behind || (found == run && run == part.shard.first(runs)))
       return no_shard(part.file, fmt::format("is damaged: line {} is not a row of run {}", number, run + 1));
     run = found;
@@ -172,7 +172,7 @@ std::variant<bool, NoVariation> merge_shards(const std::vector<std::string>& fil
     }
     return true;
   };
-  // All files are looked through before anything is written.
+  // All files are checked before anything is written.
   auto looked = read_all([](const std::string&) { return true; });
   if (std::holds_alternative<NoVariation>(looked)) return looked;
   if (!take(header)) return false;

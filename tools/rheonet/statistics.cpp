@@ -15,9 +15,10 @@
 namespace rheonet::tool {
 namespace {
 
-constexpr std::size_t most_blocks = 100;  // of the jackknife: an error is then known to 7 %
+constexpr std::size_t most_blocks = 100;  // Blocks of the jackknife; the error estimate is then accurate to 7 %.
 
-/// An estimate from the sums of all blocks; its error by leaving out one block after the other (delete-a-group jackknife).
+/// An estimate from the sums of all blocks, with its standard error from the delete-a-group jackknife, which leaves out one block after
+/// the other.
 Estimate jackknifed(const std::vector<BlockSums>& blocks, const std::function<double(const BlockSums&)>& estimate) {
   BlockSums all = blocks.front();
   for (std::size_t k = 1; k < blocks.size(); ++k) all.add(blocks[k], 1);
@@ -38,12 +39,12 @@ Estimate jackknifed(const std::vector<BlockSums>& blocks, const std::function<do
 /// Empirical quantiles, linear between the order statistics (Hyndman and Fan's definition 7), and the ranks that bracket the true
 /// quantile with at least 95 % probability (from the binomial distribution).
 std::vector<Quantile> quantiles_of(OrderStatistics& values, const std::vector<double>& probabilities) {
-  constexpr double outside = 0.025;  // on each side
+  constexpr double outside = 0.025;  // Probability on each side.
   const long count = values.count();
   std::vector<long> ranks;
   struct Ranks {
-    double position;  ///< between ranks, from 1 on
-    long from, to;    ///< 0, count + 1: none
+    double position;  ///< Fractional rank, from 1 on.
+    long from, to;    ///< `from` = 0 or `to` = count + 1: no bound.
   };
   std::vector<Ranks> of_each;
   for (const double p : probabilities) {
@@ -77,7 +78,7 @@ struct Statistics::Accumulator {
   OrderStatistics values;
   std::vector<BlockSums> blocks;
   long missing = 0;
-  std::optional<double> origin;  ///< the first value
+  std::optional<double> origin;  ///< The first value.
 };
 
 Statistics::Statistics(const Design& design, const SweepTable& table, std::vector<double> probabilities)
@@ -114,7 +115,7 @@ void Statistics::take_row(std::string_view row) {
 }
 
 void Statistics::take_group() {
-  // Of a group, the runs of the points A and B are independent.
+  // Within a group only the runs of the points A and B are independent.
   const std::size_t independent = std::min<std::size_t>(2, group_.size());
   const auto number = static_cast<std::size_t>(taken_++);
   for (std::size_t k = 0; k < columns_; ++k) {
@@ -153,12 +154,12 @@ std::vector<MeasureStatistics> Statistics::results() {
     s.quantiles = quantiles_of(a.values, probabilities_);
     double points = 0;
     for (const BlockSums& block : a.blocks) points += block.points;
-    if (points < 3) continue;  // fewer have no jackknife of the deviation
+    if (points < 3) continue;  // The jackknife of the deviation needs three points.
     s.deviation = jackknifed(a.blocks, [](const BlockSums& sums) { return std::sqrt(sums.variance()); });
     BlockSums total = a.blocks.front();
     for (std::size_t k = 1; k < a.blocks.size(); ++k) total.add(a.blocks[k], 1);
     s.mean = Estimate{*a.origin + total.of_values / total.values, s.deviation->value / std::sqrt(total.values)};
-    if (s.deviation->value == 0) continue;  // nothing has an influence
+    if (s.deviation->value == 0) continue;  // No range has an influence.
     for (std::size_t range = 0; range < total.product.size(); ++range) {
       s.first_order.push_back(jackknifed(a.blocks, [range](const BlockSums& sums) { return sums.first_order(range); }));
       s.total.push_back(jackknifed(a.blocks, [range](const BlockSums& sums) { return sums.total(range); }));

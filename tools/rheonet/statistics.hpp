@@ -25,21 +25,21 @@ struct Quantile {
   std::optional<double> from, to;
 };
 
-/// Of one measure over the runs of a sweep that have a value.
+/// Statistics of one measure over the runs of a sweep that have a value.
 struct MeasureStatistics {
-  long values = 0;   ///< how many independent runs have one; a group counts only if all of its runs do
-  long missing = 0;  ///< how many runs were done and have none
+  long values = 0;   ///< Number of independent runs with a value; a group counts only if all of its runs have one.
+  long missing = 0;  ///< Number of finished runs without a value.
   double least = 0, largest = 0;
-  std::optional<Estimate> mean, deviation;  ///< of at least 3 values
+  std::optional<Estimate> mean, deviation;  ///< Absent if there are fewer than 3 values.
   std::vector<Quantile> quantiles;
   /// For each range that is drawn from; empty unless the design has groups.
   std::vector<Estimate> first_order, total;
 };
 
-/// Sums over a block of points. Values are relative to the first value of all, so that a large mean costs no digits.
+/// Sums over a block of points. Values are relative to the very first value, so that a large mean causes no cancellation.
 struct BlockSums {
   double points = 0, values = 0, of_values = 0, of_squares = 0;
-  std::vector<double> product, difference, square;  ///< for each range: see `first_order` and `total`
+  std::vector<double> product, difference, square;  ///< For each range; see `first_order` and `total`.
 
   void add(const BlockSums& other, double sign) {
     points += sign * other.points;
@@ -67,10 +67,10 @@ class Statistics {
   Statistics(const Design& design, const SweepTable& table, std::vector<double> probabilities);
   ~Statistics();
 
-  /// Takes rows of the table as CSV, those of the first run first: whole lines. Throws std::system_error if a disk is full.
+  /// Takes complete rows of the table as CSV, in the order of the runs. Throws std::system_error if a disk is full.
   void take(std::string_view rows);
 
-  /// Of each measure, in order.
+  /// The statistics of each measure, in order.
   std::vector<MeasureStatistics> results();
   long failed() const { return failed_; }
 
@@ -82,14 +82,14 @@ class Statistics {
   std::size_t first_column_, columns_;
   long runs_, group_size_, taken_ = 0, failed_ = 0;
   std::vector<double> probabilities_;
-  std::vector<std::vector<double>> group_;  ///< of each run of it the measures; NaN for none
+  std::vector<std::vector<double>> group_;  ///< For each run of the group its measures; NaN: no value.
   std::vector<Accumulator> accumulators_;
 };
 
-/// The statistics as JSON; `head` has what precedes the measures.
+/// The statistics as JSON; `head` has the entries that precede the measures.
 nlohmann::ordered_json as_json(nlohmann::ordered_json head, const std::vector<MeasureStatistics>& all, const Design& design, const SweepTable& table);
 
-/// In words, one measure a line.
+/// The statistics as text, one line for each measure.
 std::string in_words(const std::vector<MeasureStatistics>& all, const Design& design, const SweepTable& table);
 
 }  // namespace rheonet::tool

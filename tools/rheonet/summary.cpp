@@ -17,7 +17,7 @@ std::string grouped(long n) {
   return digits;
 }
 
-// The busiest few elements, by name.
+// The names of the few elements with the most events.
 std::string busiest(const std::vector<Summary::Switched>& switched) {
   constexpr std::size_t few = 4;
   const std::size_t named = switched.size() <= few ? switched.size() : few - 1;
@@ -99,7 +99,7 @@ std::string describe_profile(const Summary& summary) {
       rest.rejected += p.rejected;
       rest.diverged += p.diverged;
       rest.switched += p.switched;
-      rest.starts = std::max(rest.starts, p.starts);  // several have a part in one
+      rest.starts = std::max(rest.starts, p.starts);  // One start may be attributed to several elements.
     }
   }
   if (left_out > 0) line(fmt::format("{} others", left_out), "", rest);

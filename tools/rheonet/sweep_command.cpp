@@ -38,7 +38,7 @@ ExitStatus refuse(const NoVariation& wrong) {
   return wrong_input;
 }
 
-/// The part of a sweep that one command simulates or joins, and where its rows go.
+/// The part of a sweep that one command simulates or joins, and its output.
 class SweepJob {
  public:
   SweepJob(const Arguments& arguments, Sweep& sweep)
@@ -53,7 +53,7 @@ class SweepJob {
   std::variant<Left, NoVariation> left() const;
   bool take_left(const Left& left);
   bool write(const std::string& text, bool rows = true);
-  /// False, with a message, if the command ends here.
+  /// Return false, after a message, if the command fails.
   bool simulate(const Left& left);
   bool merge();
   bool close();
@@ -64,18 +64,17 @@ class SweepJob {
   const SweepArguments& options_;
   Sweep& sweep_;
   Shard shard_;
-  long runs_, first_, behind_;  ///< runs count from 0
+  long runs_, first_, behind_;  ///< Runs first_ .. behind_ - 1, counted from 0.
   SweepIdentity identity_;
   std::optional<Statistics> statistics_;
   std::vector<MeasureStatistics> results_;
   std::unique_ptr<Output> output_;
   int jobs_ = 1;
   std::chrono::steady_clock::time_point flushed_;
-  long merged_failures_ = 0;  ///< rows of runs that failed, in shards
+  long merged_failures_ = 0;  ///< Rows of failed runs in merged shards.
 };
 
-/// What was left by an interrupted sweep. Its last run is simulated again: that it comes out the same tells that the scene
-/// and the program are still those.
+/// The rows of an interrupted sweep. The last run is simulated again: equal rows show that the scene and the program have not changed.
 std::variant<Left, NoVariation> SweepJob::left() const {
   const std::string& file = arguments_.output;
   if (file == "-") return NoVariation{"`--resume` needs the file to go on with", "-o sweep.csv"};
@@ -97,7 +96,7 @@ std::variant<Left, NoVariation> SweepJob::left() const {
                      "without `--resume` the file is written anew"};
 }
 
-/// The rows that were there before count in the statistics, too. False, with a message, if they cannot be read again.
+/// Adds the existing rows to the statistics. Returns false, after a message, if they cannot be read.
 bool SweepJob::take_left(const Left& left) {
   if (!statistics_ || left.bytes == 0) return true;
   std::ifstream in(arguments_.output, std::ios::binary);
@@ -155,7 +154,7 @@ bool SweepJob::merge() {
     }
   bool is_header = true;
   const auto take = [&](const std::string& lines) {
-    if (!is_header)  // the last cell of a row says why the run failed
+    if (!is_header)  // The last cell of a row has the reason why the run failed.
       for (std::size_t end = lines.find('\n'); end != lines.npos; end = lines.find('\n', end + 1))
         if (end > 0 && lines[end - 1] != ',') ++merged_failures_;
     return write(lines, !std::exchange(is_header, false));
@@ -228,7 +227,7 @@ ExitStatus SweepJob::go() {
   return failed ? not_simulated : done;
 }
 
-/// Options that do not go together.
+/// The error of options that exclude each other.
 std::optional<NoVariation> contradiction(const Arguments& arguments, const Design& design) {
   const SweepArguments& s = arguments.sweep;
   const bool merges = !s.merge.empty(), script = s.slurm || s.parallel;

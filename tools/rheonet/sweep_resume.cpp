@@ -15,7 +15,7 @@ std::variant<Left, NoVariation> what_is_left(const std::string& file, const Expe
   left.runs = expected.first;
   std::ifstream in(file, std::ios::binary);
   if (!in) {
-    if (!std::filesystem::exists(file)) return left;  // it was ended before it had any
+    if (!std::filesystem::exists(file)) return left;  // The sweep ended before its first row.
     return NoVariation{fmt::format("`--resume`: `{}` cannot be read: {}", file, std::strerror(errno)), ""};
   }
   const std::string hint = "without `--resume` it is written anew";
@@ -40,11 +40,11 @@ std::variant<Left, NoVariation> what_is_left(const std::string& file, const Expe
   }
   left.bytes = bytes;
   left.lines = lines;
-  long run = expected.first, count = 0;  // of the run whose rows are read: its number, and how many
+  long run = expected.first, count = 0;  // The number of the run whose rows are read, and the number of these rows.
   std::string begin = run < expected.behind ? expected.key(run) : "";
   while (next(line)) {
     if (!expected.end.empty() && expected.end.starts_with(line)) break;
-    // What is cut short before its values could be a row of this run or of the next.
+    // A line that is cut off within its key may belong to this run or to the next.
     if (count > 0 && line.back() != '\n' && begin.starts_with(line)) break;
     const long number = left.lines + count + 1;
     if (!line.starts_with(begin) && !begin.starts_with(line)) {

@@ -8,24 +8,24 @@
 
 namespace rheonet::tool {
 
-/// What an interrupted sweep left in its file.
+/// The part of an interrupted sweep's file that can be kept.
 struct Left {
-  long runs = 0;          ///< those before this one are whole
-  std::size_t bytes = 0;  ///< which these are, with the lines before them
+  long runs = 0;          ///< Runs before this number are complete.
+  std::size_t bytes = 0;  ///< Size of the complete runs and of the lines before them.
   long lines = 0;
-  std::string last;  ///< what stands behind them: of the last run, which may lack its end
+  std::string last;  ///< Text after the complete runs: the last run, whose end may be missing.
 };
 
-/// The table that the file should hold the beginning of.
+/// The table that the file should be the beginning of.
 struct Expected {
-  std::string remark;  ///< a line before the header; "": none
+  std::string remark;  ///< Line before the header; "": none.
   std::string header;
-  std::string end;  ///< a line behind the last row; "": none
-  long first = 0, behind = 0;  ///< runs, counted from 0
-  std::function<std::string(long run)> key;  ///< what each row of a run begins with
+  std::string end;  ///< Line after the last row; "": none.
+  long first = 0, behind = 0;  ///< Runs first .. behind - 1, counted from 0.
+  std::function<std::string(long run)> key;  ///< The cells that each row of a run begins with.
 };
 
-/// Reads it, run by run. What is wrong with it instead: it is no part of such a table.
+/// Reads the file run by run. Returns a NoVariation if it is not the beginning of the expected table.
 std::variant<Left, NoVariation> what_is_left(const std::string& file, const Expected& expected);
 
 }  // namespace rheonet::tool

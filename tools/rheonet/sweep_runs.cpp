@@ -50,7 +50,7 @@ bool Sweep::is_wrong_for_all(const ReadResult& refused) {
   for (const Diagnostic& mistake : refused.diagnostics) {
     if (!is_error(mistake)) continue;
     if (mistake.spot.on_command_line()) {
-      // Lines of the command line: those of `--set`, of what is varied, of measures.
+      // The lines of the command line: first the --set, then the varied values, then the measures.
       const std::size_t line = static_cast<std::size_t>(mistake.spot.line) - 1;
       if (line < set || line >= set + design_.paths().size()) return true;
       const std::size_t path = count_characters(design_.origins()[line - set] + design_.paths()[line - set]);
@@ -84,7 +84,7 @@ bool Sweep::begin() {
       title_ = other.scene->title;
       return true;
     }
-  if (table_.measures()) return true;  // each row says why it failed
+  if (table_.measures()) return true;  // Each row has the reason why its run failed.
   report_all(first_);
   return false;
 }

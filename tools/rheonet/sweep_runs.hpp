@@ -12,12 +12,12 @@
 
 namespace rheonet::tool {
 
-/// Makes the rows of each run.
+/// Simulates the runs of a sweep and produces their rows.
 class Sweep {
  public:
   Sweep(const Arguments& arguments, Design design, SweepTable table)
       : arguments_(arguments), options_(options_of(arguments)), design_(std::move(design)), table_(std::move(table)) {
-    options_.claims = false;  // they are about the scene as it stands
+    options_.claims = false;  // Claims hold for the unmodified scene.
     options_.cache = &cache_;
     options_.measures = table_.record_measures();
   }
@@ -27,11 +27,11 @@ class Sweep {
   tables::Layout layout() const;
   std::string key(long run) const { return SweepTable::key(run + 1, design_.point(run)); }
 
-  /// Reads the first run, with a report if that or every other is refused. False: nothing can be simulated. Then the columns of
-  /// rows without measures are known.
+  /// Reads a run, which determines the columns of rows without measures: the first run that is not refused. Returns false, after
+  /// messages, if the sweep cannot begin.
   bool begin();
 
-  /// On any thread.
+  /// The rows of a run; nothing if it was stopped. May be called on any thread.
   std::optional<std::string> make(long run, const std::atomic<bool>& stop);
 
   const Sources& sources() const { return first_.sources; }
@@ -44,18 +44,18 @@ class Sweep {
  private:
   std::vector<std::vector<std::string>> some_points() const { return {design_.point(0), design_.point(design_.runs() - 1)}; }
   ReadResult read(const std::vector<std::string>& values);
-  /// Whether what is wrong with a run is wrong with every run: the path of a value, or the scene itself.
+  /// Whether a mistake of one run is a mistake of every run: in the path of a value, or in the scene itself.
   bool is_wrong_for_all(const ReadResult& refused);
 
   const Arguments& arguments_;
   FileCache cache_;
-  ReadOptions options_;  ///< of every run
+  ReadOptions options_;  ///< For every run.
   Design design_;
   SweepTable table_;
   std::string title_;
   ReadResult first_;
   std::atomic<long> failed_ = 0;
-  std::atomic<double> simulating_ = 0;  ///< CPU time of the simulations [s]
+  std::atomic<double> simulating_ = 0;  ///< CPU time of the simulations [s].
 };
 
 }  // namespace rheonet::tool

@@ -27,18 +27,18 @@ const SweepFigure figures[] = {
 
 void append_number(std::string& text, double value) {
   text += ',';
-  // There is none: what is never crossed, say.
-  if (std::isfinite(value)) fmt::format_to(std::back_inserter(text), "{}", value + 0.0);  // no -0
+  // A value that does not exist, such as the time of a crossing that never happens, is an empty cell.
+  if (std::isfinite(value)) fmt::format_to(std::back_inserter(text), "{}", value + 0.0);  // Prints -0 as 0.
 }
 
-/// The number that a value is; absent if it is none by itself.
+/// The number in a text; absent if the text is not a number without reference to other values.
 std::optional<Number> number_of(const std::string& value) {
   const auto read = evaluate_text(value, Environment{});
   const Number* number = std::get_if<Number>(&read);
   return number ? std::optional(*number) : std::nullopt;
 }
 
-/// The SI unit of a number as a user would type it: that of a quantity which has its dimension, N*s/m rather than kg/s.
+/// The SI unit of a number as a user would type it: the unit of a quantity with the same dimension, N*s/m rather than kg/s.
 std::string unit_of_number(const Number& number) {
   constexpr Quantity quantities[] = {Quantity::number, Quantity::time,     Quantity::frequency, Quantity::position, Quantity::velocity,
                                      Quantity::force,  Quantity::stiffness, Quantity::damping,  Quantity::mass};
@@ -164,7 +164,7 @@ std::string SweepTable::key(long run, const std::vector<std::string>& values) {
 
 std::string SweepTable::row(const std::string& key, const Summary& summary) const {
   std::string text = key;
-  text.pop_back();  // each number brings its comma
+  text.pop_back();  // Each number adds its own comma.
   for (const double value : values(summary)) append_number(text, value);
   return text + ",\n";
 }

@@ -27,7 +27,7 @@ const TableFormat* table_format(const std::string& path) {
 }
 
 TableWriter::TableWriter(const TableFormat& format, tables::Layout layout) : layout_(std::move(layout)) {
-  void* const part = ::dlopen(format.part, RTLD_NOW | RTLD_LOCAL);  // stays loaded
+  void* const part = ::dlopen(format.part, RTLD_NOW | RTLD_LOCAL);  // Never unloaded.
   if (part == nullptr) {
     const char* const why = ::dlerror();
     throw std::runtime_error(fmt::format("{} files need a part of rheonet that is missing: {}\n  build rheonet with the Debian package {}, or write .csv",

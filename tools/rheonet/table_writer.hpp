@@ -9,28 +9,28 @@
 
 namespace rheonet::tool {
 
-/// A format of tables other than CSV, which a part of rheonet writes that is loaded when it is needed.
+/// A format of tables other than CSV. A shared library, loaded on demand, writes it.
 struct TableFormat {
-  const char* ending;   ///< of the file: ".nc"
-  const char* part;     ///< its file: "librheonet_netcdf.so"
-  const char* package;  ///< Debian's, with which rheonet has to be built
+  const char* ending;   ///< Ending of the file's name: ".nc".
+  const char* part;     ///< Shared library: "librheonet_netcdf.so".
+  const char* package;  ///< Debian package that is needed to build the library.
 };
 
-/// Of the name of a file; nullptr if it is not the name of such a table.
+/// The format for a file's name; nullptr if there is none.
 const TableFormat* table_format(const std::string& path);
 
 /// Turns rows of CSV into a table of another format.
 class TableWriter {
  public:
-  /// Loads the part of rheonet for the format. Throws std::runtime_error if it is missing.
+  /// Loads the shared library for the format. Throws std::runtime_error if it is missing.
   TableWriter(const TableFormat& format, tables::Layout layout);
   ~TableWriter();
 
-  /// Creates or replaces the file. Throws std::system_error, as the others do.
+  /// Creates or replaces the file. Throws std::system_error, like the other methods.
   void begin(const char* path);
-  /// Takes a part of a CSV text: its first line names the columns, each further line has a cell for each.
+  /// Takes a piece of a CSV text, whose first line names the columns.
   void take(std::string_view text);
-  /// After the last line.
+  /// Call after the last line.
   void close();
 
  private:
@@ -41,7 +41,7 @@ class TableWriter {
   tables::OpenTableFile* open_ = nullptr;
   std::unique_ptr<tables::TableFile> file_;
   tables::Rows rows_;
-  std::string begun_;  ///< a line that has no end yet
+  std::string begun_;  ///< The incomplete last line.
   bool has_header_ = false;
 };
 

@@ -16,16 +16,16 @@
 namespace rheonet::tool {
 namespace {
 
-constexpr long most_values = 10'000;  // each is as many runs as there are scenes
+constexpr long most_values = 10'000;  // Each value costs one run for each scene.
 const char* const range_forms =
     "where values are drawn: --vary PATH=from:to, PATH=from:to:log, PATH=value,value,..., PATH=normal(mean, deviation) or "
     "PATH=lognormal(median, deviation of ln); how many: --random, --latin or --sobol";
 const char* const forms = "--vary PATH=from:to:count, PATH=from:to:count:log or PATH=value,value,...";
 
-/// "10 N/m".
+/// An end of a range: "10 N/m".
 struct End {
   double value = 0;
-  std::string number, unit;  ///< as they were written
+  std::string number, unit;  ///< As they were typed.
 };
 
 std::optional<End> read_end(const std::string& text) {
@@ -49,14 +49,14 @@ std::optional<long> read_count(const std::string& text) {
   return count;
 }
 
-/// A value between two ends, neither of which is 0 if it is logarithmic; no product that could overflow.
+/// A value between two ends, which must not be 0 if the range is logarithmic. Avoids products that could overflow.
 double between(double from, double to, double fraction, bool logarithmic) {
   if (!logarithmic) return std::lerp(from, to, fraction);
   return std::copysign(std::exp(std::lerp(std::log(std::abs(from)), std::log(std::abs(to)), fraction)), from);
 }
 
-/// The ends as they were written, and between them what stands in the table and is simulated: numbers of as many digits
-/// as tell neighbours apart. Absent if no number of digits does.
+/// Evenly spaced values from `from` to `to`. The ends are kept as they were typed; the others are rounded to the fewest digits, at least 6,
+/// that keep neighbours distinct. Absent if no number of digits does.
 std::optional<std::vector<std::string>> spread(const End& from, const End& to, long count, bool logarithmic) {
   for (int digits = 6; digits <= std::numeric_limits<double>::max_digits10; ++digits) {
     std::vector<std::string> values{joined(from.number, to.unit)};
@@ -66,7 +66,7 @@ std::optional<std::vector<std::string>> spread(const End& from, const End& to, l
     for (long i = 1; i < count - 1 && apart; ++i) {
       const double fraction = static_cast<double>(i) / static_cast<double>(count - 1);
       const std::string number = fmt::format("{:.{}g}", between(from.value, to.value, fraction, logarithmic), digits);
-      const auto read = read_end(number);  // what is simulated; rounded beyond the largest number it is none
+      const auto read = read_end(number);  // The value that is simulated. Absent if rounding exceeded the largest double.
       apart = read && goes_on(read->value);
       if (read) last = read->value;
       values.push_back(joined(number, to.unit));
@@ -77,7 +77,7 @@ std::optional<std::vector<std::string>> spread(const End& from, const End& to, l
   return {};
 }
 
-/// What is common to all forms: the path, and the parts of the range between colons.
+/// The parts that all forms share: the path, and the parts of the range between colons.
 struct Parts {
   std::string path, range;
   std::vector<std::string> parts;
@@ -123,7 +123,7 @@ std::variant<Ends, NoVariation> read_ends(const std::vector<std::string>& parts,
   return Ends{*from, *to};
 }
 
-/// "normal(200 N/m, 10 N/m)", apart.
+/// The name and the arguments of "normal(200 N/m, 10 N/m)".
 struct Call {
   std::string name;
   std::vector<std::string> arguments;
@@ -134,7 +134,7 @@ std::optional<Call> called(const std::string& range) {
   if (open == range.npos || open == 0 || range.back() != ')') return {};
   if (!std::all_of(range.begin(), range.begin() + static_cast<std::ptrdiff_t>(open), [](unsigned char c) { return std::isalpha(c) != 0; })) return {};
   const std::string inside = range.substr(open + 1, range.size() - open - 2);
-  if (inside.find(')') != inside.npos) return {};  // a list of values that are expressions
+  if (inside.find(')') != inside.npos) return {};  // A list of values that are expressions.
   return Call{range.substr(0, open), split_outside_brackets(inside)};
 }
 

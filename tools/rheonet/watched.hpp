@@ -6,8 +6,8 @@
 
 namespace rheonet::tool {
 
-/// Does what may take long, with a bar on the terminal that it moves: it is given what tells how far it has come, 0 to 1. False
-/// if it throws SimulationError, which has then been reported.
+/// Runs `work` with a progress bar on the terminal. `work` gets a function to call with the fraction done, 0 to 1. Returns false if `work`
+/// throws SimulationError, which is then reported.
 bool do_watched(const Sources& sources, const std::function<void(const std::function<void(double)>&)>& work);
 
 }  // namespace rheonet::tool

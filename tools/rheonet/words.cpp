@@ -12,7 +12,7 @@ namespace {
 
 std::string number(double x, const std::string& unit) { return readable(x, unit, 10); }
 
-// What most signals share, where it is not 0.
+// Phase, time and offset of a signal, each if it is not 0.
 std::string rest(double phase, double time, double offset, const std::string& unit) {
   std::string text;
   if (phase != 0) text += ", phase " + number(phase, "rad");
@@ -21,7 +21,7 @@ std::string rest(double phase, double time, double offset, const std::string& un
   return text;
 }
 
-/// Says each shape of a signal.
+/// Describes each shape of a signal.
 struct Words {
   const std::string& unit;
 

@@ -22,7 +22,7 @@ using nlohmann::json;
 using report::Tell;
 using Clock = std::chrono::steady_clock;
 
-/// A callback that tells progress, at most ten times a second.
+/// A callback that sends messages `progress`, at most ten a second.
 auto progress_to(const Tell& tell) {
   return [&tell, last = Clock::now()](double fraction) mutable {
     constexpr std::chrono::milliseconds pause{100};
@@ -39,18 +39,19 @@ std::string first_error(const ReadResult& read) {
   return "";
 }
 
-/// The scene of a task, without its claims, which are about the full model at its own accuracy. Its mistakes are told; absent if it has errors.
+/// The scene of a task, without its claims, which hold for the full model at the scene's accuracy. Sends the mistakes; absent if there are
+/// errors.
 std::optional<Scene> scene_of(const json& task, const std::vector<const FileOffer*>& offers, const Tell& tell) {
   ReadOptions options;
   options.plotted = true;
   options.claims = false;
   ReadResult read = read_sent(sent_scene(task), offers, options);
   tell(report::mistakes_message(read));
-  if (read.scene) read.scene->output_events = false;  // models are compared at the same times
+  if (read.scene) read.scene->output_events = false;  // Models are compared at the same times.
   return std::move(read.scene);
 }
 
-/// A record of a scene over time, as a page draws it.
+/// A record of a scene over time, for the page.
 json curve_of(const Scene& scene, std::size_t record, const std::string& without) {
   json time = json::array(), values = json::array();
   constexpr std::size_t most_rows = 2000;
@@ -68,7 +69,7 @@ json curve_of(const Scene& scene, std::size_t record, const std::string& without
   return {{"without", without}, {"time", std::move(time)}, {"values", std::move(values)}};
 }
 
-/// The record that the effects change most, of the full model and without each effect.
+/// Sends the record that the effects change most, for the full model and without each effect.
 void tell_curves(const Scene& scene, const ModelHierarchy& models, const Tell& tell) {
   const Rung* most = nullptr;
   for (const Rung& rung : models.each)
@@ -98,7 +99,7 @@ void weigh_effects(const json& task, const std::vector<const FileOffer*>& offers
 void price_accuracy(const json& task, const std::vector<const FileOffer*>& offers, const Tell& tell) {
   const std::optional<Scene> scene = scene_of(task, offers, tell);
   if (!scene) return;
-  constexpr double short_run = 0.02;  // s; of shorter runs the median of several is taken, as a page may use 20 s of CPU time in all
+  constexpr double short_run = 0.02;  // [s]; shorter runs are repeated for a median. A page has 20 s of CPU time in all.
   const double seconds = run(*scene).wall_seconds;
   PriceListSettings settings{.tolerances = {}, .methods = {{.name = "ida"}}, .runs = seconds < short_run ? 5 : 1, .progress = progress_to(tell)};
   for (int digits = 2; digits <= 10; ++digits) settings.tolerances.push_back(std::pow(10.0, -digits));
@@ -119,7 +120,7 @@ void sweep_number(const json& task, const std::vector<const FileOffer*>& offers,
     options.overrides = task.at("set").get<std::vector<std::string>>();
     options.overrides.push_back(path + '=' + value);
     options.measures = table.record_measures();
-    options.claims = false;  // they are about the scene as it stands
+    options.claims = false;  // Claims hold for the unmodified scene.
     const ReadResult read = read_sent(netlist, offers, options);
     json point{{"kind", "point"}, {"value", value}, {"measures", json::array()}, {"failure", ""}};
     try {

@@ -6,18 +6,18 @@
 #include "core/netlist/file_offer.hpp"
 #include "tools/report/messages.hpp"
 
-// Tasks that simulate a scene many times. Each tells `progress` while it goes on, with the fraction that is done.
+// Tasks that simulate a scene many times. Each sends messages `progress` with the fraction that is done.
 namespace rheonet::serve {
 
-/// The scene without each of its effects: the message `effects`, and then as `effect_curves` the record that they change most,
-/// of the full model and without each.
+/// Compares the scene with and without each of its effects. Sends the message `effects`, then `effect_curves` with the record that changes
+/// most, for the full model and without each effect.
 void weigh_effects(const nlohmann::json& task, const std::vector<const FileOffer*>& offers, const report::Tell& tell);
 
-/// What accuracy costs: the message `prices`.
+/// Measures CPU time against error: the message `prices`.
 void price_accuracy(const nlohmann::json& task, const std::vector<const FileOffer*>& offers, const report::Tell& tell);
 
-/// Measures of the scene, as `rheonet sweep --measure` names them, for each of some values of a number: `point` for each value, with
-/// its measures or why it failed.
+/// Simulates the scene for several values of one number. Sends for each value a message `point` with the measures (named as for
+/// `rheonet sweep --measure`) or the reason of a failure.
 void sweep_number(const nlohmann::json& task, const std::vector<const FileOffer*>& offers, const report::Tell& tell);
 
 }  // namespace rheonet::serve

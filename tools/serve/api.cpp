@@ -13,9 +13,9 @@ namespace {
 using nlohmann::json;
 using namespace std::chrono_literals;
 
-constexpr std::size_t longest_body = 1u << 20;  // of a body
+constexpr std::size_t longest_body = 1u << 20;  // Largest body of a request [bytes].
 
-/// Answers with bytes as they are. `set_content` would compress them anew for each request, for seconds where they are a script of a megabyte.
+/// Answers with uncompressed bytes. `set_content` would compress them again for each request, which takes seconds for a script of 1 MB.
 void send(httplib::Response& response, std::string_view bytes, const char* type) {
   if (bytes.empty()) return response.set_content("", type);
   response.set_content_provider(bytes.size(), type, [bytes](std::size_t from, std::size_t length, httplib::DataSink& sink) {
@@ -45,7 +45,7 @@ void refuse(httplib::Response& response, int status, const std::string& why) {
   Server::end_connection();
 }
 
-/// Says how one gets in: in words that a person reads, or a program.
+/// Explains how to get access, as a page or as JSON.
 void ask_for_token(const httplib::Request& request, httplib::Response& response) {
   if (request.path.starts_with("/api/"))
     return refuse(response, 401, "the token of the address that `rheonet serve` has printed is missing, or of another start: open "
@@ -56,7 +56,7 @@ void ask_for_token(const httplib::Request& request, httplib::Response& response)
   Server::end_connection();
 }
 
-/// The body as JSON; absent if it is none or too large, which has then been said.
+/// The body as JSON; absent, after an answer with the reason, if it is not JSON or too large.
 std::optional<json> read(httplib::Response& response, const httplib::ContentReader& body) {
   std::string text;
   bool too_large = false;
@@ -89,7 +89,7 @@ int status_of(Folder::Written::Outcome outcome) {
   return 500;
 }
 
-/// `framed_by`: the origin whose pages may show the page in a frame; "": none.
+/// `framed_by`: the origin whose pages may embed the page in a frame; "": none.
 void add_headers(httplib::Server& server, const std::string& framed_by) {
   server.set_default_headers({
       {"Content-Security-Policy",

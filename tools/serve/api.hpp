@@ -12,12 +12,13 @@
 
 namespace rheonet::serve {
 
-/// What the playground asks for: see tools/web/README.md.
+/// The HTTP requests of the playground: see tools/web/README.md.
 class Api {
  public:
   Api(Folder& folder, Pool& pool, Keys& keys) : folder_(folder), pool_(pool), keys_(keys) {}
 
-  /// Adds its routes. `host` is the address that is listened at; `framed_by` the origin whose pages may show the page in a frame, "": none.
+  /// Adds the routes. `host` is the address that the server listens at; `framed_by` is the origin whose pages may embed the page in a frame,
+  /// "": none.
   void attach(Server& server, const std::string& host, const std::string& framed_by);
 
  private:
@@ -29,7 +30,7 @@ class Api {
   void open(const Request& request, Response& response) const;
   void save(Response& response, const Reader& body);
   void start(Response& response, const Reader& body);
-  /// Begins a task; an older one of the same session is not wanted any more.
+  /// Starts a task, and cancels the earlier task of the same session.
   std::shared_ptr<Job> begin(const std::string& session, std::string task);
 
   Folder& folder_;

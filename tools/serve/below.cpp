@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Why an entry of a folder could not be opened, after `error`; "" if there is none of that name.
+/// Why opening an entry of a folder failed with `error` (errno); "" if there is no entry with that name.
 std::string why_not(int folder, const fs::path& part, int error) {
   struct stat status {};
   if (::fstatat(folder, part.c_str(), &status, AT_SYMLINK_NOFOLLOW) != 0 && errno == ENOENT) return "";
@@ -74,7 +74,7 @@ OfferedFolder::OfferedFolder(const fs::path& folder) : folder_(::open(folder.c_s
 }
 
 std::optional<std::string> OfferedFolder::text_of(const fs::path& path, std::string& why) const {
-  constexpr std::size_t most = 64U << 20U;  // bytes of a file: more than a run of the playground has memory and time for
+  constexpr std::size_t most = 64U << 20U;  // Largest file [bytes]: more than a run of the playground can handle.
   if (is_hidden(path)) return why = "a name that begins with a dot is hidden, and not served", std::nullopt;
   const fs::path ending = path.extension();
   if (ending != ".toml" && ending != ".csv" && ending != ".lesson") return why = "only .toml, .csv and .lesson files are served", std::nullopt;

@@ -10,7 +10,7 @@
 
 namespace rheonet::serve {
 
-/// An open file or folder; closed at the end.
+/// Owner of an open file descriptor.
 class Descriptor {
  public:
   explicit Descriptor(int number = -1) : number_(number) {}
@@ -28,21 +28,20 @@ class Descriptor {
   int number_;
 };
 
-// Files by their names below a folder that is open, "teaching/creep.toml". Each part of a name is opened in the folder before
-// it, and none is followed that is a symbolic link: whatever others exchange meanwhile, nothing outside is reached.
+// Access to files below an open folder by relative names such as "teaching/creep.toml". Each part of a name is opened relative to the folder
+// before it, and symbolic links are not followed. So nothing outside the folder can be reached, even if entries are replaced meanwhile.
 
-/// The folder that `file` is in. Not open if there is none: `why` then says why, and is "" if there is no such folder.
+/// The folder of `file`. If it cannot be opened, the result is not open and `why` has the reason, "" if the folder does not exist.
 Descriptor open_parent(int root, const std::filesystem::path& file, std::string& why);
 
-/// The text of a regular file of at most `most` bytes. Absent if it is none: `why` then says why, and is "" if there is no such
-/// file.
+/// The text of a regular file of at most `most` bytes. If it cannot be read, the result is absent and `why` has the reason, "" if the file
+/// does not exist.
 std::optional<std::string> text_below(int root, const std::filesystem::path& file, std::size_t most, std::string& why);
 
 /// Whether a part of a path begins with a dot.
 bool is_hidden(const std::filesystem::path& path);
 
-/// The files that netlists may include, or read as tables, and their lessons: the .toml, .csv and .lesson files of a folder that are not
-/// hidden.
+/// The files that netlists may include or read as tables, and lessons: the .toml, .csv and .lesson files of a folder that are not hidden.
 class OfferedFolder final : public FileOffer {
  public:
   /// Throws std::system_error if it cannot be opened.

@@ -13,8 +13,8 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto slowest_write = 5s;    // without a byte taken
-constexpr auto longest_write = 120s;  // of one piece
+constexpr auto slowest_write = 5s;    // Longest time in which the client reads no byte.
+constexpr auto longest_write = 120s;  // Longest time for one call of `write`.
 
 int milliseconds_until(Connection::Clock::time_point until) {
   const auto left = std::chrono::ceil<std::chrono::milliseconds>(until - Connection::Clock::now());

@@ -8,23 +8,23 @@
 
 namespace rheonet::serve {
 
-/// A connection that no client can hold for ever, however slowly it sends or takes what it gets.
+/// A connection with time limits, so that a client that sends or reads slowly cannot hold it forever.
 class Connection final : public httplib::Stream {
  public:
   using Clock = std::chrono::steady_clock;
 
   explicit Connection(int socket) : socket_(socket) {}
 
-  /// Waits for the first byte of a request; false if none comes.
+  /// Waits for the first byte of a request. Returns false if none arrives in time.
   bool wait_for_request(std::chrono::milliseconds patience);
-  /// From now on the request has this long to come, and no more bytes than that.
+  /// Limits the time in which the request must arrive, and its size.
   void begin_request(std::chrono::milliseconds time, std::size_t bytes);
 
   bool is_readable() const override;
-  /// False also if the client has gone.
+  /// False also if the client has closed the connection.
   bool is_writable() const override;
   ssize_t read(char* data, std::size_t size) override;
-  /// Writes all, as long as the client takes some every few seconds and is done in time.
+  /// Writes all bytes, unless the client reads nothing for some seconds or the write takes too long.
   ssize_t write(const char* data, std::size_t size) override;
   void get_remote_ip_and_port(std::string& ip, int& port) const override;
   void get_local_ip_and_port(std::string& ip, int& port) const override;
@@ -35,9 +35,9 @@ class Connection final : public httplib::Stream {
 
   int socket_;
   char buffer_[4096];
-  std::size_t begin_ = 0, end_ = 0;  ///< of what is in the buffer
-  Clock::time_point until_{};        ///< when the request must be there
-  std::size_t left_ = 0;             ///< bytes that it may still have
+  std::size_t begin_ = 0, end_ = 0;  ///< Range of unread bytes in the buffer.
+  Clock::time_point until_{};        ///< Deadline of the request.
+  std::size_t left_ = 0;             ///< Number of bytes that the request may still have.
 };
 
 }  // namespace rheonet::serve

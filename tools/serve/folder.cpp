@@ -29,7 +29,7 @@ constexpr std::size_t largest_file = 1u << 20, most_looked_at = 20u << 20;
 
 std::string version_of(const std::string& text) { return fmt::format("{:016x}", std::hash<std::string>{}(text)); }
 
-/// Where a text first names a file; absent if it does not.
+/// The position of the first mention of a file in a text; absent if there is none.
 std::optional<std::size_t> place_of(const std::string& name, const std::string& text) {
   const auto belongs = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '-' || c == '_' || c == '.'; };
   for (std::size_t at = text.find(name); at != text.npos; at = text.find(name, at + 1))
@@ -44,14 +44,14 @@ std::optional<std::string> version_there(int folder, const fs::path& name, std::
   if (::fstatat(folder, name.c_str(), &status, AT_SYMLINK_NOFOLLOW) != 0) return "";
   constexpr mode_t writable = S_IWUSR | S_IWGRP | S_IWOTH;
   if (const std::optional<std::string> text = text_below(folder, name, largest_file, why)) {
-    // Root may write to any file; one that nobody may write to is meant to stay as it is.
+    // Root can write to any file, but a file without any write permission must not be changed.
     if ((status.st_mode & writable) != 0 && ::faccessat(folder, name.c_str(), W_OK, AT_EACCESS) == 0) return version_of(*text);
     why = "it is read-only";
   }
   return {};
 }
 
-/// Puts a text in the place of another. Why it cannot; "" if it is done.
+/// Replaces the text of a file. Returns the reason of a failure, or "".
 std::string put(int folder, const fs::path& name, const std::string& text) {
   try {
     tool::Replacement file(folder, name.string());
@@ -63,7 +63,7 @@ std::string put(int folder, const fs::path& name, const std::string& text) {
   }
 }
 
-/// The .toml files in a folder and below, by name.
+/// The .toml files in a folder and below, sorted by name.
 std::vector<fs::path> netlists_below(const fs::path& folder, bool& all_visited) {
   std::vector<fs::path> names;
   std::error_code failed;

@@ -11,47 +11,47 @@
 
 namespace rheonet::serve {
 
-/// The folder whose netlists are shown. Nothing outside it is read or written, by whatever name and whatever is exchanged for a
-/// symbolic link meanwhile: it stays open, and names are looked up in it. Threads may share it.
+/// The folder whose netlists are shown. Nothing outside it is read or written: it stays open, and names are looked up in it without
+/// following symbolic links. Threads may share it.
 class Folder {
  public:
-  /// Throws std::filesystem::filesystem_error if it is none.
+  /// Throws std::filesystem::filesystem_error if `path` is not a folder.
   Folder(const std::filesystem::path& path, bool may_be_written);
 
   struct Entry {
-    std::string file;   ///< relative to the folder: "teaching/creep.toml"
-    std::string title;  ///< "" if it has none
-    std::string about;  ///< its first words
-    std::optional<std::size_t> place = {};  ///< where README.md beside it first names it, from its beginning; if it does
-    std::optional<LessonGlance> lesson = {};  ///< if it has one
+    std::string file;   ///< Path relative to the folder: "teaching/creep.toml".
+    std::string title;  ///< "" if it has no title.
+    std::string about;  ///< Summary, see Glance.
+    std::optional<std::size_t> place = {};  ///< Position of its first mention in the README.md of its folder.
+    std::optional<LessonGlance> lesson = {};  ///< Present if the netlist has a lesson.
   };
   struct Listing {
-    std::vector<Entry> scenes;  ///< by name
-    std::size_t left_out = 0;   ///< .toml files that nobody has looked at, because there are so many
-    bool all_visited = true;    ///< false: there may be more than these
+    std::vector<Entry> scenes;  ///< Sorted by name.
+    std::size_t left_out = 0;   ///< Number of .toml files beyond the limit, which have not been read.
+    bool all_visited = true;    ///< False: there may be further files.
   };
-  /// The netlists in it and below, those that can be simulated by themselves; no more than a thousand.
+  /// The netlists in the folder and below that are scenes; at most a thousand.
   Listing scenes() const;
 
   struct Netlist {
     std::string text;
-    std::string version;  ///< tells this text from another one that the file may have had
+    std::string version;  ///< Identifies this text among all texts of the file.
   };
-  /// A netlist; absent if there is none of that name.
+  /// A netlist; absent if there is none with that name.
   std::optional<Netlist> read(const std::string& file) const;
 
   struct Written {
     enum class Outcome { done, no_name, not_here, other_there, failed };
     Outcome outcome = Outcome::done;
-    std::string why;      ///< in words, unless it is done
-    std::string version;  ///< of the text that is there now, written or not; "" if there is none
+    std::string why;      ///< Reason as text, unless `done`.
+    std::string version;  ///< Version of the text that the file has now, written or not; "" if there is no file.
   };
-  /// Writes a netlist, over one of that name only if its version is `version`: what nobody has seen is not lost.
+  /// Writes a netlist. Replaces an existing file only if its version is `version`, so that changes by others are not lost.
   Written write(const std::string& file, const std::string& text, const std::string& version);
   bool may_be_written() const { return may_be_written_; }
 
   const std::filesystem::path& path() const { return path_; }
-  /// It, open.
+  /// Descriptor of the open folder.
   int descriptor() const { return root_.get(); }
 
  private:

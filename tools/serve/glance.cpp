@@ -15,7 +15,7 @@ std::string first_comment(const std::string& text) {
   std::string words;
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line) && line.starts_with('#');) {
-    if (line.starts_with("#:")) continue;  // for an editor: which schema it has
+    if (line.starts_with("#:")) continue;  // The schema, for an editor.
     const std::size_t begin = line.find_first_not_of("# \t\r");
     if (begin == std::string::npos && !words.empty()) break;
     if (begin != std::string::npos) words += (words.empty() ? "" : " ") + line.substr(begin, line.find_last_not_of(" \t\r") + 1 - begin);
@@ -29,7 +29,7 @@ std::string string_in(const TomlValue& table, std::string_view key) {
   return entry && entry->value.is_string() ? entry->value.text : "";
 }
 
-/// As much of it as a card has room for.
+/// The text, cut to the size of a card.
 std::string shortened(std::string text) {
   constexpr std::size_t most = 400;
   if (text.size() <= most) return text;

@@ -5,13 +5,13 @@
 
 namespace rheonet::serve {
 
-/// What a gallery says of a netlist before anyone opens it.
+/// The entry of a netlist in the gallery.
 struct Glance {
-  std::string title;  ///< "" if it has none
-  std::string about;  ///< the question of its demo, or else the comment that it begins with; or why it cannot be read
+  std::string title;  ///< "" if it has no title.
+  std::string about;  ///< The question of its demo, else its first comment, or why it cannot be read.
 };
 
-/// What the text of a file says of itself; absent if it is TOML, but no scene: models, or a file of something else.
+/// The gallery's entry for the text of a file; absent if it is TOML but not a scene, such as a file of models.
 std::optional<Glance> glance(const std::string& text);
 
 }  // namespace rheonet::serve

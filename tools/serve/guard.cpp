@@ -14,7 +14,7 @@
 namespace rheonet::serve {
 namespace {
 
-/// "localhost" of "localhost:8017", "::1" of "[::1]:8017".
+/// The host without its port: "localhost" of "localhost:8017", "::1" of "[::1]:8017".
 std::string without_port(const std::string& host) {
   if (host.starts_with('[')) {
     const std::size_t end = host.find(']');
@@ -30,7 +30,7 @@ bool is_address(const std::string& text) {
 
 using Random = std::array<unsigned char, 16>;
 
-/// 128 random bits, which nobody guesses.
+/// 128 random bits.
 Random random_bytes() {
   Random bytes{};
   if (::getrandom(bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size()))
@@ -40,7 +40,7 @@ Random random_bytes() {
 
 std::string random_word() { return fmt::format("{:02x}", fmt::join(random_bytes(), "")); }
 
-constexpr std::string_view letters = "abcdefghijkmnpqrstuvwxyz23456789";  // 32, without l, o, 0 and 1
+constexpr std::string_view letters = "abcdefghijkmnpqrstuvwxyz23456789";  // 32 characters, without l, o, 0 and 1.
 constexpr std::size_t code_length = 8;
 
 std::string random_code() {
@@ -50,7 +50,7 @@ std::string random_code() {
   return code;
 }
 
-/// The code in a path, however it was typed: "/ABCD-EFGH". "" if it is none.
+/// The code in a path such as "/ABCD-EFGH", in upper or lower case; "" if the path has no code.
 std::string code_in(const std::string& path) {
   std::string code;
   for (const char c : path.substr(1))
@@ -58,7 +58,7 @@ std::string code_in(const std::string& path) {
   return code.size() == code_length && code.find_first_not_of(letters) == std::string::npos ? code : "";
 }
 
-/// Takes as long wherever they differ, so that nothing is learnt from the time.
+/// Compares in constant time, so that the duration does not reveal where the strings differ.
 bool is_same(const std::string& given, const std::string& key) {
   if (given.size() != key.size()) return false;
   unsigned char different = 0;
@@ -84,7 +84,8 @@ Keys::Keys(int port, bool framed)
 bool Keys::admit(const httplib::Request& request, httplib::Response& response) const {
   if (is_same(request.get_header_value("Authorization"), "Bearer " + token_)) return true;
   if (is_same(request.get_param_value("token"), token_)) {
-    // From a link that leads to the page the cookie comes too; what else it opens holds nothing of the folder.
+    // SameSite=Lax: the browser also sends the cookie when a link of another site opens the page. The cookie alone gives no access to the
+    // folder.
     response.set_header("Set-Cookie", fmt::format("{}={}; Path=/; HttpOnly; SameSite=Lax", cookie_, page_key_));
     return true;
   }
@@ -93,7 +94,7 @@ bool Keys::admit(const httplib::Request& request, httplib::Response& response) c
 }
 
 bool Keys::may_try() {
-  constexpr double rate = 5, most = 20;  // tries a second, and at once
+  constexpr double rate = 5, most = 20;  // Tries a second, and tries without delay.
   const std::lock_guard lock(mutex_);
   const auto now = std::chrono::steady_clock::now();
   tries_ = std::min(most, tries_ + rate * std::chrono::duration<double>(now - last_try_).count());
@@ -123,7 +124,7 @@ bool is_this_machine(const std::string& host) { return host == "localhost" || ho
 std::string refusal(const httplib::Request& request, const std::string& listening) {
   const std::string host = request.get_header_value("Host");
   const std::string name = without_port(host);
-  // Who listens at all addresses is reached by any of them; a name could be anyone's.
+  // A server that listens at all addresses accepts any numeric address, but no other name: anyone can point a name here.
   const bool open = !is_this_machine(listening);
   if (!is_this_machine(name) && name != listening && !(open && is_address(name))) return "this host name is not served";
   if (const std::string origin = request.get_header_value("Origin"); !origin.empty() && origin != "http://" + host)

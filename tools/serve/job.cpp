@@ -11,10 +11,10 @@ using Clock = Pool::Clock;
 
 namespace {
 
-constexpr std::size_t longest_answer = 64u << 20;  // of an answer
-constexpr auto tick = 20ms;                    // after which a cancelled task is noticed
-constexpr int most_tries = 20;                 // for a worker that takes the task
-constexpr double longest_wait = 20;            // limit on wall time, as a multiple of the limit on CPU time
+constexpr std::size_t longest_answer = 64u << 20;  // Largest answer [bytes].
+constexpr auto tick = 20ms;                    // Interval at which cancellation is checked.
+constexpr int most_tries = 20;                 // Tries to find a worker that accepts the task.
+constexpr double longest_wait = 20;            // Limit on wall time, as a multiple of the limit on CPU time.
 
 }  // namespace
 
@@ -32,7 +32,7 @@ std::string Job::take(std::chrono::milliseconds patience, bool& finished) {
   finished = finished_;
   given_ = text_.size();
   std::string text = std::exchange(text_, {});
-  pool_.answers().change(held_, given_ + begun_);  // what was sent before has gone
+  pool_.answers().change(held_, given_ + begun_);  // The text taken last has been sent.
   return text;
 }
 
@@ -54,7 +54,7 @@ void Job::run() {
 
 std::unique_ptr<Worker> Job::begin() {
   const auto patience = std::chrono::milliseconds(static_cast<long>(2000 * pool_.limits().seconds));
-  // One that has ended while it had nothing to do is replaced.
+  // A worker that ended while it was idle is replaced.
   for (int k = 0; k < most_tries; ++k) {
     std::unique_ptr<Worker> worker = pool_.acquire(patience, [this] { return cancelled_.load(); });
     if (!worker) {

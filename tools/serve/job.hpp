@@ -12,8 +12,8 @@
 
 namespace rheonet::serve {
 
-/// A task on its way: a worker's messages are gathered as they come, whether or not the client takes them, so that a
-/// client that is slow keeps no worker from others.
+/// A running task. The worker's messages are collected as they arrive, whether or not the client takes them, so that a slow client does not
+/// block a worker.
 class Job {
  public:
   Job(Pool& pool, std::string task);
@@ -21,23 +21,23 @@ class Job {
   Job(const Job&) = delete;
   Job& operator=(const Job&) = delete;
 
-  /// Ends it: nobody wants its result any more.
+  /// Ends the task; its result is no longer wanted.
   void cancel() { cancelled_ = true; }
 
-  /// What has come since the last time, after waiting a while for it; `finished` if nothing more will.
+  /// The messages since the last call; waits up to `patience` for some. Sets `finished` if no more will follow.
   std::string take(std::chrono::milliseconds patience, bool& finished);
 
  private:
   void run();
-  /// A worker that has taken the task; nullptr if there is none, which has then been said.
+  /// A worker that has accepted the task; nullptr, after a message `failed`, if there is none.
   std::unique_ptr<Worker> begin();
-  /// The worker's answer, up to its end. Whether the worker can go on with another task.
+  /// Collects the worker's answer up to its end. Returns whether the worker can take another task.
   bool follow(Worker& worker);
-  /// Whether the run is to end for what it takes, which has then been said.
+  /// Whether the run exceeds a limit and must end; sends the message then.
   bool is_too_much(Worker& worker, Pool::Clock::time_point began, double cpu_before);
   void tell(const std::string& message);
   void fail(const std::string& why);
-  /// Says to AnswerMemory how much this answer holds, with so much that a worker has begun to send. False: there is no room.
+  /// Updates this answer's share of AnswerMemory, including `begun` bytes of an incomplete message. Returns false if there is no room.
   bool hold(std::size_t begun);
 
   Pool& pool_;
@@ -45,11 +45,11 @@ class Job {
   std::atomic<bool> cancelled_ = false;
   std::mutex mutex_;
   std::condition_variable more_;
-  std::string text_;       ///< not taken yet
-  std::size_t given_ = 0;  ///< bytes that were taken last, and are being sent
-  std::size_t begun_ = 0;  ///< bytes that a worker has begun to send
-  std::size_t held_ = 0;   ///< bytes of AnswerMemory
-  std::size_t told_ = 0;   ///< bytes in all
+  std::string text_;       ///< Messages not yet taken.
+  std::size_t given_ = 0;  ///< Bytes that were taken last and are being sent.
+  std::size_t begun_ = 0;  ///< Bytes of the worker's incomplete message.
+  std::size_t held_ = 0;   ///< Bytes reserved in AnswerMemory.
+  std::size_t told_ = 0;   ///< Bytes in all messages so far.
   bool finished_ = false;
   std::thread thread_;
 };

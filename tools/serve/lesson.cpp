@@ -23,7 +23,7 @@ const std::vector<std::string> levels{"beginner", "intermediate", "advanced"};
 constexpr const char* time_name = "time";
 constexpr int curve_points = 400;
 
-/// A string of TOML.
+/// The text as a TOML string.
 std::string quoted(const std::string& text) { return json(text).dump(); }
 
 /// Reads a lesson and checks it against its netlist.
@@ -55,9 +55,9 @@ class LessonReader {
   const SentScene& netlist_;
   const std::vector<const FileOffer*>& offers_;
   std::string language_;
-  ReadResult lesson_;  // without a scene: its sources and its mistakes
+  ReadResult lesson_;  // Sources and mistakes only, no scene.
   DiagnosticList diagnostics_{lesson_.sources};
-  ReadResult plain_;  // the netlist as it is
+  ReadResult plain_;  // The unmodified netlist.
 };
 
 json LessonReader::read() {
@@ -89,13 +89,13 @@ json LessonReader::read() {
       reader.finish(diagnostics_);
     }
   } catch (const TooManyDiagnostics&) {
-    // The mistakes so far are enough to mend.
+    // The mistakes found so far are reported.
   }
   lesson_.diagnostics = diagnostics_.sorted();
   return diagnostics_.errors() > 0 || !plain_.scene ? json() : told;
 }
 
-/// A text in the language of the page, or else in English, or else in any.
+/// A text in the language of the page, else in English, else in any language.
 std::string LessonReader::text_of(const TomlEntry& entry) {
   if (entry.value.is_string()) return entry.value.text;
   const std::string what = "`" + entry.key + "`";
@@ -120,7 +120,7 @@ std::string LessonReader::optional_text(TableReader& reader, const char* key) {
   return entry ? text_of(*entry) : "";
 }
 
-/// The texts of the netlist's [demo] in other languages, where the lesson has them.
+/// The translations of the netlist's [demo] in the lesson.
 json LessonReader::read_demo(const TomlEntry* entry) {
   const Demo& own = plain_.presentation.demo;
   json texts{{"question", own.question}, {"change", own.change}, {"see", own.see}, {"why", own.why}};
@@ -203,7 +203,7 @@ json LessonReader::read_choice(const TomlValue& table, const std::string& x, con
   return told;
 }
 
-/// The netlist with an override, and a record. A mistake of the override is one of the lesson's `source`.
+/// The netlist with an override and a record. A mistake in the override is reported at `source` in the lesson.
 std::optional<Scene> LessonReader::scene_with(const std::string& override, const std::string& record, const TomlValue& source, const std::string& what) {
   ReadOptions options;
   options.overrides = {override};
@@ -218,7 +218,7 @@ std::optional<Scene> LessonReader::scene_with(const std::string& override, const
   return std::move(read.scene);
 }
 
-/// The values of an expression over the parameters of the netlist and the time, in SI: what [exact] would say of a record.
+/// The values [SI] of an expression of time and the netlist's parameters, as in [exact].
 std::optional<std::vector<double>> LessonReader::course_of(const TomlEntry& form, const std::string& record) {
   if (!form.value.is_string() && form.value.kind != TomlValue::Kind::number) {
     diagnostics_.error(form.value.spot, "`" + form.key + "` is an expression, not " + describe(form.value));
@@ -234,13 +234,13 @@ std::optional<std::vector<double>> LessonReader::course_of(const TomlEntry& form
   return {};
 }
 
-/// Two values of the record, in SI.
+/// The range of an axis: two values of the record's quantity [SI].
 json LessonReader::read_range(const TomlEntry& entry, const std::string& record) {
   if (!expect_array(entry.value, "`range`", diagnostics_, "range = [\"-1 N\", \"5 N\"]")) return {};
   std::vector<double> ends;
   for (const TomlValue& item : entry.value.items)
     if (const auto course = course_of({entry.key, item.spot, item}, record)) ends.push_back(course->front());
-  if (ends.size() != entry.value.items.size()) return {};  // this has been reported
+  if (ends.size() != entry.value.items.size()) return {};  // Already reported.
   if (ends.size() != 2 || !(ends[0] < ends[1])) diagnostics_.error(entry.value.spot, "`range` is the least and the largest value of the axis");
   return ends;
 }
@@ -260,7 +260,7 @@ json LessonReader::read_presets(const TomlEntry& entry) {
   return list;
 }
 
-/// The texts to put in place of numbers of the netlist, as TOML.
+/// The texts, as TOML, that replace numbers of the netlist.
 json LessonReader::read_values(const TomlValue& table, const std::string& name) {
   std::vector<std::string> known;
   for (const report::AdjustableNumber& each : report::adjustable_numbers(plain_)) known.push_back(each.group + '.' + each.name);

@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t longest_part = 255;  // bytes: NAME_MAX of the usual file systems
+constexpr std::size_t longest_part = 255;  // [bytes]: NAME_MAX of common file systems.
 constexpr std::size_t longest = 1000;
 
 std::string fault_of_character(char32_t character) {

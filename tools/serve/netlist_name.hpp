@@ -4,8 +4,8 @@
 
 namespace rheonet::serve {
 
-/// Why `file`, such as "teaching/creep.toml", is no name of a netlist in a folder, whatever is in the folder; "" if it is
-/// one. Such a name can be shown on one line, and does not lead out of the folder.
+/// Why `file` is not a valid name of a netlist in a folder, such as "teaching/creep.toml"; "" if it is valid. A valid name can be shown on
+/// one line and does not lead out of the folder. The folder itself is not read.
 std::string fault_of_name(const std::string& file);
 
 }  // namespace rheonet::serve

@@ -35,7 +35,7 @@ namespace fs = std::filesystem;
 using namespace rheonet::tool;
 using namespace std::chrono_literals;
 
-/// Each connection takes a descriptor, each run two.
+/// Raises the limit on open files: each connection takes a descriptor, each run two.
 void allow_many_files() {
   rlimit most{};
   if (::getrlimit(RLIMIT_NOFILE, &most) != 0) return;
@@ -43,7 +43,8 @@ void allow_many_files() {
   ::setrlimit(RLIMIT_NOFILE, &most);
 }
 
-/// A page that leads to an address. The browser gets its name: among the words of a process all users would read the token.
+/// A temporary page that redirects to an address. The browser is started with the name of this file, because all users can read the
+/// arguments of a process, and the address contains the token.
 class Signpost {
  public:
   explicit Signpost(const std::string& address) {
@@ -51,7 +52,7 @@ class Signpost {
     std::error_code failed;
     const fs::path folder = runtime != nullptr && *runtime != '\0' ? fs::path(runtime) : fs::temp_directory_path(failed);
     std::string name = (folder / "rheonet-XXXXXX.html").string();
-    const int file = ::mkstemps(name.data(), 5);  // for its owner alone
+    const int file = ::mkstemps(name.data(), 5);  // Readable by its owner only.
     if (file < 0) return;
     path_ = name;
     if (tool::write_text(file, fmt::format("<!doctype html><meta charset=\"utf-8\"><meta http-equiv=\"refresh\" content=\"0;url={}\">\n",
@@ -81,7 +82,7 @@ std::string address_of(const std::string& host, int port) {
   return fmt::format("http://{}:{}/", host.find(':') != std::string::npos ? "[" + host + "]" : host, port);
 }
 
-/// The addresses of this machine in its networks.
+/// The network addresses of this machine.
 std::vector<std::string> addresses_of_machine() {
   std::vector<std::string> found;
   ifaddrs* all = nullptr;
@@ -91,14 +92,14 @@ std::vector<std::string> addresses_of_machine() {
     char text[NI_MAXHOST] = "";
     const socklen_t size = each->ifa_addr->sa_family == AF_INET ? sizeof(sockaddr_in) : each->ifa_addr->sa_family == AF_INET6 ? sizeof(sockaddr_in6) : 0;
     if (size == 0 || ::getnameinfo(each->ifa_addr, size, text, sizeof text, nullptr, 0, NI_NUMERICHOST) != 0) continue;
-    // An address with a zone (fe80::1%eth0) holds for this machine alone.
+    // An address with a zone (fe80::1%eth0) is valid on this machine only.
     if (std::string_view(text).find('%') == std::string_view::npos) found.emplace_back(text);
   }
   ::freeifaddrs(all);
   return found;
 }
 
-/// The hosts that the page can be opened at: an address that listens at all networks is none that anyone can type.
+/// The hosts in the printed addresses. A wildcard address (0.0.0.0, ::) is replaced by the addresses of this machine.
 std::vector<std::string> hosts_of(const std::string& host) {
   if (host != "0.0.0.0" && host != "::") return {host};
   std::vector<std::string> hosts{"127.0.0.1"};
@@ -107,7 +108,7 @@ std::vector<std::string> hosts_of(const std::string& host) {
   return hosts;
 }
 
-/// Says where the playground is, and who can reach it.
+/// Prints the addresses of the playground and who can reach it.
 void announce(const ServeArguments& wanted, const Folder& folder, const Keys& keys, int port) {
   const std::vector<std::string> hosts = hosts_of(wanted.host);
   fmt::print("{}{} (Ctrl-C ends it): the netlists of {}\n", address_of(hosts.front(), port), keys.query(),
@@ -137,7 +138,7 @@ ExitStatus listen(const ServeArguments& wanted, Folder& folder) {
   Api api(folder, pool, keys);
   api.attach(server, wanted.host, wanted.framed_by);
   const std::atomic<bool>& interrupted = end_on_signals();
-  // A server that does not listen yet takes no notice of being stopped.
+  // A server that does not listen yet ignores `stop`.
   std::atomic<bool> ended = false;
   std::thread ending([&] {
     while (!ended && !(interrupted && server.is_running())) std::this_thread::sleep_for(50ms);

@@ -4,7 +4,7 @@
 
 namespace rheonet::serve {
 
-/// Serves the playground until it is interrupted; or is one of its workers.
+/// Serves the playground until an interrupt, or runs as one of its workers.
 tool::ExitStatus play(const tool::ServeArguments& wanted);
 
 }  // namespace rheonet::serve

@@ -9,9 +9,9 @@ using namespace std::chrono_literals;
 
 namespace {
 
-constexpr double longest_turn = 0.5, shortest_turn = 0.05;  // CPU time of a run for whose place others wait [s]
-constexpr double all_turns = 1;                             // that those who wait have together, about [s]
-constexpr std::size_t most_aside = 8;                       // for each place: they need memory
+constexpr double longest_turn = 0.5, shortest_turn = 0.05;  // CPU time of a run while others wait for its place [s].
+constexpr double all_turns = 1;                             // CPU time of all waiting tasks together, approximately [s].
+constexpr std::size_t most_aside = 8;                       // For each place; runs that stepped aside need memory.
 
 }  // namespace
 
@@ -24,7 +24,7 @@ bool AnswerMemory::change(std::size_t& held, std::size_t wanted) {
 }
 
 Pool::Pool(const Limits& limits, std::size_t places, int folder) : limits_(limits), folder_(folder), places_(places) {
-  // Ready beforehand: a process takes longer to start than a small scene to run.
+  // Started in advance, because starting a process takes longer than running a small scene.
   for (std::size_t k = 0; k < places; ++k) idle_.push_back(std::make_unique<Worker>(limits_, folder_));
 }
 
@@ -87,12 +87,12 @@ bool Pool::step_aside(Worker& worker) {
 
 void Pool::release(std::unique_ptr<Worker> worker, bool sound) {
   const bool was_aside = worker->is_aside();
-  // Whoever has stepped aside does not come back to the front.
+  // A worker that stepped aside has the lowest priority for good, so it is replaced.
   if (!sound || was_aside) worker.reset();
   if (!was_aside && !worker) {
     try {
       worker = std::make_unique<Worker>(limits_, folder_);
-    } catch (const std::system_error&) {  // the next one that wants it tries again
+    } catch (const std::system_error&) {  // The next task tries again.
     }
   }
   {

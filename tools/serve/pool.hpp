@@ -13,39 +13,37 @@
 
 namespace rheonet::serve {
 
-/// Memory that all answers share which nobody has taken yet: a client that is slow, or many, must not fill the machine's.
+/// The shared memory limit of all answers that clients have not yet taken, so that slow or many clients cannot exhaust the memory.
 class AnswerMemory {
  public:
-  /// Changes what one answer holds from `held` to `wanted` bytes. False, and no change, if there is not so much left.
+  /// Changes the share of one answer from `held` to `wanted` bytes. Returns false, and changes nothing, if there is not enough left.
   bool change(std::size_t& held, std::size_t wanted);
 
-  static constexpr std::size_t most = std::size_t{256} << 20U;  ///< bytes: four of the largest answers
+  static constexpr std::size_t most = std::size_t{256} << 20U;  ///< Four answers of the largest size [bytes].
 
  private:
   std::mutex mutex_;
   std::size_t used_ = 0;
 };
 
-/// Workers that are ready, and who may use them: as many run at once as there are places, the others wait their turn, first
-/// come, first served. A run that uses much CPU time while others wait steps aside: it goes on with what they leave of the
-/// processors, and has no place among those that run. So nobody waits for runs that never end.
+/// A pool of worker processes. At most `places` workers run at a time; further tasks wait in a queue. A run that uses much CPU time while
+/// others wait steps aside: it gives up its place and continues at the lowest priority. So no task waits for a run that never ends.
 class Pool {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// `folder` is open, and what workers read from.
+  /// `folder` is the descriptor of the folder that workers read from.
   Pool(const Limits& limits, std::size_t places, int folder);
 
-  /// A worker with a place; nullptr if it is not its turn in time, or `cancelled` says that it is no longer wanted.
+  /// A worker with a place; nullptr if no place becomes free in time, or if `cancelled` returns true.
   std::unique_ptr<Worker> acquire(std::chrono::milliseconds patience, const std::function<bool()>& cancelled);
 
-  /// Whether others wait for the place of a run that has used so much CPU time: the more of them, the sooner.
+  /// Whether a run that has used `cpu_seconds` should step aside for waiting tasks. The more tasks wait, the less time it gets.
   bool is_in_the_way(double cpu_seconds);
-  /// Gives up its place to them; false if too many have done so, and it has to end.
+  /// Gives up the worker's place. Returns false if too many have done so and the run has to end.
   bool step_aside(Worker& worker);
 
-  /// Gives a worker back, which did or did not step aside; one that is not `sound` (it was interrupted, or has gone) is
-  /// replaced.
+  /// Returns a worker to the pool. It is replaced if it is not `sound` (interrupted or terminated).
   void release(std::unique_ptr<Worker> worker, bool sound);
   const Limits& limits() const { return limits_; }
   AnswerMemory& answers() { return answers_; }
@@ -57,8 +55,8 @@ class Pool {
   int folder_;
   AnswerMemory answers_;
   std::size_t places_, running_ = 0, aside_ = 0;
-  std::deque<unsigned long> waiting_;  ///< the numbers of those that wait
-  unsigned long last_ = 0;             ///< number that was given
+  std::deque<unsigned long> waiting_;  ///< Ticket numbers of the waiting tasks.
+  unsigned long last_ = 0;             ///< Last ticket number issued.
   std::vector<std::unique_ptr<Worker>> idle_;
   std::mutex mutex_;
   std::condition_variable changed_;

@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::size_t most_compared = 10, most_curves = 200, longest_name = 1000;
 
-/// A netlist as a worker gets it; absent if it is not one.
+/// A netlist for a worker; absent if the value is not a netlist.
 std::optional<json> scene_of(const json& value) {
   if (!value.is_object() || !value.contains("text") || !value["text"].is_string()) return {};
   const std::string file = word(value, "file");
@@ -26,7 +26,7 @@ std::optional<json> scene_of(const json& value) {
   return json{{"text", value["text"]}, {"file", file.empty() ? "scene.toml" : file}, {"folder", folder}};
 }
 
-/// A unit as a page shows it: its name, and its size in SI.
+/// A display unit: its name and its size in SI.
 std::optional<json> unit_of(const json& curve, const char* key) {
   const json unit = curve.value(key, json());
   if (!unit.is_object() || !unit.value("factor", json()).is_number() || !(unit["factor"].get<double>() > 0)) return {};
@@ -35,7 +35,7 @@ std::optional<json> unit_of(const json& curve, const char* key) {
 
 bool consists_of(const std::string& text, const char* characters) { return text.find_first_not_of(characters) == text.npos; }
 
-/// A curve of a figure: its columns, and how the page shows it.
+/// A curve of a figure: its columns and its style in the page.
 std::optional<json> curve_of(const json& curve) {
   if (!curve.is_object()) return {};
   json result;
@@ -56,7 +56,7 @@ std::optional<json> curve_of(const json& curve) {
 
 bool is_one_of(std::string_view kind, std::initializer_list<std::string_view> kinds) { return std::find(kinds.begin(), kinds.end(), kind) != kinds.end(); }
 
-/// A list of strings of a request; absent if it is none, or has more of them than anyone waits for.
+/// A list of strings of a request; absent if it is not a list of strings or has more than `most` items.
 std::optional<json> words_of(const json& request, const char* key) {
   constexpr std::size_t most = 1000;
   const auto found = request.find(key);

@@ -8,15 +8,15 @@ namespace rheonet::serve {
 
 class Folder;
 
-// Requests of the playground, whether a server or the page's own WebAssembly answers them: see tools/web/README.md.
+// Requests of the playground, answered by a server or by WebAssembly in the page: see tools/web/README.md.
 
-/// A string of a request, "" if there is none; a long one is no name.
+/// A string of a request; "" if there is none or if it is too long for a name.
 std::string word(const nlohmann::json& value, const char* key);
 
-/// The task that a request asks for, with nothing in it but what is known; absent if it asks for none.
+/// The task that a request asks for, with known keys only; absent if the request is invalid.
 std::optional<nlohmann::json> task_of(const nlohmann::json& request);
 
-/// The netlists of a folder, as the gallery lists them.
+/// The netlists of a folder, for the gallery.
 nlohmann::json listing_of(const Folder& folder);
 
 }  // namespace rheonet::serve

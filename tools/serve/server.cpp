@@ -14,17 +14,17 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr std::size_t threads = 400;   // as many connections at once
-constexpr int most_waiting = 512;      // as many more are accepted, and as many wait to be
-constexpr auto idle = 100ms;           // after which a thread looks whether the server is to end
-constexpr int idle_times = 50;         // for so long a connection may stay open without a request, if no other waits
-constexpr auto request_time = 10s;     // that a request may take to come
-constexpr auto hurried_time = 1s;      // the same while other connections wait
-constexpr int most_requests = 1000;    // on one connection
+constexpr std::size_t threads = 400;   // Largest number of connections served at a time.
+constexpr int most_waiting = 512;      // Largest number of accepted connections that wait for a thread, and of pending ones.
+constexpr auto idle = 100ms;           // Interval at which an idle thread checks whether the server ends.
+constexpr int idle_times = 50;         // Intervals that a connection may be idle if no other connection waits.
+constexpr auto request_time = 10s;     // Time in which a request must arrive.
+constexpr auto hurried_time = 1s;      // The same while other connections wait.
+constexpr int most_requests = 1000;    // Largest number of requests on one connection.
 
 thread_local bool ends = false;
 
-/// Threads that serve connections. While too many connections wait for a thread, no more are accepted.
+/// Thread pool for the connections. While too many connections wait for a thread, no more are accepted.
 class Crew final : public httplib::ThreadPool {
  public:
   explicit Crew(std::atomic<int>& waiting) : ThreadPool(threads), waiting_(waiting) {}
@@ -46,7 +46,7 @@ class Crew final : public httplib::ThreadPool {
 
 Server::Server() {
   new_task_queue = [this] { return new Crew(waiting_); };
-  // A port that another server has is not shared with it.
+  // Do not share a port with another server.
   set_socket_options([](int socket) {
     const int on = 1;
     ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
@@ -55,7 +55,7 @@ Server::Server() {
 
 int Server::bind(const std::string& host, int port) {
   const int bound = port == 0 ? bind_to_any_port(host) : bind_to_port(host, port) ? port : -1;
-  // The library lets no more than five wait.
+  // The library limits the backlog to five.
   if (bound > 0 && ::listen(svr_sock_, most_waiting) != 0) return -1;
   return bound;
 }
@@ -74,7 +74,7 @@ bool Server::process_and_close_socket(int socket) {
     connection.begin_request(waiting_ > 0 ? hurried_time : request_time, most_bytes);
     bool closed = false;
     ends = false;
-    // The library would send each range of an answer, a refusal too, as often as a client names it.
+    // Ignore ranges: the library would send a range as often as a client repeats it.
     const auto whole = [](httplib::Request& request) { request.ranges.clear(); };
     if (!process_request(connection, k + 1 == most_requests, closed, whole) || closed || ends) break;
   }

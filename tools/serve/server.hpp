@@ -7,21 +7,21 @@
 
 namespace rheonet::serve {
 
-/// An HTTP server that answers many at once and that no client can block.
+/// An HTTP server that answers many clients at a time and that no client can block.
 class Server final : public httplib::Server {
  public:
-  static constexpr std::size_t most_bytes = 2u << 20;  ///< of a request
+  static constexpr std::size_t most_bytes = 2u << 20;  ///< Largest size of a request.
 
   Server();
-  /// Binds to an address; port 0: any that is free. The port, -1 if it cannot.
+  /// Binds to an address; port 0: any free port. Returns the port, or -1 on failure.
   int bind(const std::string& host, int port);
-  /// After the answer to this request the connection ends: what else it holds is not read.
+  /// Closes the connection after the answer to this request; further data are not read.
   static void end_connection();
 
  private:
   bool process_and_close_socket(int socket) override;
 
-  std::atomic<int> waiting_ = 0;  ///< connections that no thread serves yet
+  std::atomic<int> waiting_ = 0;  ///< Connections that wait for a thread.
 };
 
 }  // namespace rheonet::serve

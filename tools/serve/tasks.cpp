@@ -24,7 +24,7 @@ using report::Tell;
 
 using Offers = std::vector<const FileOffer*>;
 
-/// The netlist as its page shows it.
+/// The netlist with the records that its page shows.
 ReadResult read(const SentScene& item, const Offers& offers) {
   ReadOptions options;
   options.plotted = true;
@@ -35,7 +35,7 @@ void tell_file(const Tell& tell, const std::string& type, const std::string& tex
   tell(report::to_line({{"kind", "file"}, {"type", type}, {"text", text}}));
 }
 
-/// Everything that a page shows of a scene.
+/// Sends everything that a page shows of a scene.
 void show(const json& task, const Offers& offers, const Tell& tell) {
   const SentScene item = sent_scene(task);
   ReadResult scene = read(item, offers);
@@ -46,14 +46,14 @@ void show(const json& task, const Offers& offers, const Tell& tell) {
   if (!task.value("draw", false)) report::tell_run(scene, {.most_values = 60'000, .as_they_come = true}, tell);
 }
 
-/// What is simulated, and why. Not with what a page shows at once: the run is begun for it, which takes a moment.
+/// Sends the explanation of the equations. It is a separate task because it starts the run, which takes a moment.
 void explain_to_page(const json& task, const Offers& offers, const Tell& tell) {
   const ReadResult scene = read(sent_scene(task), offers);
   tell(report::mistakes_message(scene));
   if (scene.scene) tell(report::explanation_message(*scene.scene));
 }
 
-/// All rows, every digit.
+/// Sends all rows with all digits.
 void csv(const json& task, const Offers& offers, const Tell& tell) {
   const ReadResult scene = read(sent_scene(task), offers);
   tell(report::mistakes_message(scene));
@@ -91,7 +91,7 @@ void report_of(const json& task, const Offers& offers, const Tell& tell) {
 
 plot::Shown unit_of(const json& unit) { return {unit.at("name").get<std::string>(), unit.at("factor").get<double>()}; }
 
-/// Simulates a scene for the curves that a page shows of it.
+/// Simulates a scene for the curves that its page shows.
 void add_curves(const json& item, const Offers& offers, std::vector<plot::Measured>& curves, plot::Look& look, const Tell& tell) {
   ReadResult scene = read(sent_scene(item), offers);
   if (!scene.scene) return tell(report::mistakes_message(scene));
@@ -119,7 +119,7 @@ void add_curves(const json& item, const Offers& offers, std::vector<plot::Measur
   run(*scene.scene, settings);
 }
 
-/// Curves as an SVG, in the colours and units of the page.
+/// Sends curves as SVG, in the colours and units of the page.
 void figure(const json& task, const Offers& offers, const Tell& tell) {
   std::vector<plot::Measured> curves;
   plot::Look look;

@@ -8,8 +8,8 @@
 
 namespace rheonet::serve {
 
-/// Carries out a task of the playground as task_of (requests.hpp) gives it, and tells its messages. A scene includes files of the
-/// offers alone. An error becomes a message `failed`; only std::bad_alloc is thrown.
+/// Carries out a task from task_of (requests.hpp) and sends its messages. Scenes can include only files of the offers. An error becomes a
+/// message `failed`; only std::bad_alloc is thrown.
 void carry_out(const nlohmann::json& task, const std::vector<const FileOffer*>& offers, const report::Tell& tell);
 
 }  // namespace rheonet::serve

@@ -26,7 +26,7 @@ struct Pipe {
   }
 };
 
-/// Waits until a process has ended; its status.
+/// Waits until a process has ended. Returns its status.
 int wait_for(pid_t process) {
   int status = 0;
   while (::waitpid(process, &status, 0) < 0 && errno == EINTR) {
@@ -46,7 +46,7 @@ Worker::Worker(const Limits& limits, int folder) {
   posix_spawn_file_actions_addclosefrom_np(&actions, folder_descriptor + 1);
   posix_spawnattr_t attributes;
   posix_spawnattr_init(&attributes);
-  // Ctrl-C is for the server, which ends its workers.
+  // A process group of its own, so that Ctrl-C reaches only the server, which ends its workers.
   posix_spawnattr_setpgroup(&attributes, 0);
   posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
   std::string time = fmt::format("--time-limit={}", limits.seconds), memory = fmt::format("--memory-limit={}", limits.megabytes);
@@ -85,12 +85,12 @@ Worker::Ending Worker::ending() {
 double Worker::cpu_seconds() const {
   clockid_t clock{};
   std::timespec time{};
-  if (::clock_getcpuclockid(process_, &clock) != 0 || ::clock_gettime(clock, &time) != 0) return 0;  // it has gone
+  if (::clock_getcpuclockid(process_, &clock) != 0 || ::clock_gettime(clock, &time) != 0) return 0;  // The process has ended.
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
 void Worker::step_aside() {
-  // Of the group, which is its own: of the process alone it would be that of its first thread.
+  // Set the priority of the worker's process group; PRIO_PROCESS would change only the first thread.
   ::setpriority(PRIO_PGRP, static_cast<id_t>(process_), 19);
   aside_ = true;
 }
@@ -129,7 +129,7 @@ Worker::Answer Worker::take(std::string& message, std::chrono::milliseconds pati
     const ssize_t count = ::read(out_, buffer_.data() + before, piece);
     buffer_.resize(before + static_cast<std::size_t>(count > 0 ? count : 0));
     if (count <= 0) return Answer::gone;
-    // Who waits looks at its size before more comes.
+    // Return, so that the caller can check the size before more is read.
     if (buffer_.find('\n', searched_) == std::string::npos) return Answer::nothing;
   }
 }

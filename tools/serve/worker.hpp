@@ -8,41 +8,41 @@
 
 namespace rheonet::serve {
 
-/// What a run may take.
+/// Resource limits of a run.
 struct Limits {
-  double seconds;  ///< of CPU time
-  int megabytes;
+  double seconds;  ///< CPU time [s].
+  int megabytes;   ///< Memory [MB].
 };
 
-/// A process of its own that simulates, so that nothing in a scene can hang or kill the server. It takes a task, a line
-/// of JSON, and answers with messages, a line each (see tools/report/messages.hpp); an empty line ends them.
+/// A separate process that simulates, so that no scene can hang or kill the server. It takes a task as a line of JSON and answers with
+/// messages, one a line (see tools/report/messages.hpp), and an empty line at the end.
 class Worker {
  public:
-  /// Starts one, which gets the open folder `folder` to read from; throws std::system_error.
+  /// Starts the process, which inherits the folder descriptor `folder`. Throws std::system_error.
   Worker(const Limits& limits, int folder);
-  /// Kills it.
+  /// Kills the process.
   ~Worker();
   Worker(const Worker&) = delete;
   Worker& operator=(const Worker&) = delete;
 
-  /// False if it cannot take it.
+  /// Sends a task. Returns false if the process has ended.
   bool give(const std::string& task);
 
   enum class Answer { message, end, nothing, gone };
-  /// Waits a while for the next message.
+  /// Waits up to `patience` for the next message.
   Answer take(std::string& message, std::chrono::milliseconds patience);
-  /// Bytes of a message that has not come whole yet.
+  /// Size of the incomplete message received so far [bytes].
   std::size_t begun() const { return buffer_.size() - begin_; }
-  /// CPU time that it has used since it began [s]: waiting is free.
+  /// CPU time of the process since its start [s].
   double cpu_seconds() const;
-  /// How it ended that has gone: for want of memory, or as these words say.
+  /// How the process ended: out of memory, or as `words` describe.
   struct Ending {
     bool of_memory;
     std::string words;
   };
   Ending ending();
 
-  /// From now on it gets what others leave of the processors.
+  /// Sets the lowest scheduling priority.
   void step_aside();
   bool is_aside() const { return aside_; }
 
@@ -50,13 +50,13 @@ class Worker {
   pid_t process_ = -1;
   int in_ = -1, out_ = -1;
   std::string buffer_;
-  std::size_t begin_ = 0;     ///< of what has not been taken
-  std::size_t searched_ = 0;  ///< before this there is no end of a line
+  std::size_t begin_ = 0;     ///< Begin of the text not taken yet.
+  std::size_t searched_ = 0;  ///< There is no line feed between begin_ and here.
   bool aside_ = false;
 };
 
-/// The process itself: takes tasks from standard input until there are no more. Its exit status is `out_of_memory` if a task
-/// needs more than it may have.
+/// The main function of the process: takes tasks from standard input until its end. The exit status is `out_of_memory` if a task exceeds
+/// the memory limit.
 constexpr int out_of_memory = 3;
 /// File descriptor of the served folder in that process.
 constexpr int folder_descriptor = 3;

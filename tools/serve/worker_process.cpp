@@ -28,7 +28,7 @@ const std::vector<const FileOffer*>& offers() {
   static const std::vector<const FileOffer*> all = [] {
     std::vector<const FileOffer*> made{new OfferedFolder(Descriptor(folder_descriptor))};
     for (const std::filesystem::path& library : tool::library_folders()) made.push_back(new OfferedFolder(library));
-    return made;  // for as long as the process lives
+    return made;  // Never destroyed.
   }();
   return all;
 }
@@ -38,7 +38,7 @@ void limit(int resource, rlim_t most) {
   ::setrlimit(static_cast<__rlimit_resource>(resource), &both);
 }
 
-/// Of this process so far.
+/// The address space that this process uses so far [bytes].
 rlim_t address_space() {
   std::ifstream pages("/proc/self/statm");
   rlim_t count = 0;
@@ -46,7 +46,7 @@ rlim_t address_space() {
   return count * static_cast<rlim_t>(::sysconf(_SC_PAGESIZE));
 }
 
-/// Whoever gave the task may have gone while it is being done.
+/// Ends the process when the server has ended, even during a task.
 void end_with_the_server() {
   for (;;) {
     pollfd input{STDIN_FILENO, 0, 0};
@@ -60,14 +60,14 @@ int work(const Limits& limits) {
   std::thread(end_with_the_server).detach();
   limit(RLIMIT_CORE, 0);
   limit(RLIMIT_FSIZE, 0);
-#ifndef __SANITIZE_ADDRESS__  // which takes all addresses there are
+#ifndef __SANITIZE_ADDRESS__  // The sanitizer reserves the whole address space.
   limit(RLIMIT_AS, address_space() + static_cast<rlim_t>(limits.megabytes) * (1u << 20));
 #endif
   for (std::string line; std::getline(std::cin, line);) {
     try {
       carry_out(nlohmann::json::parse(line), offers(), print_line);
     } catch (const std::bad_alloc&) {
-      return out_of_memory;  // the server says so
+      return out_of_memory;  // The server reports it.
     }
     print_line("");
   }

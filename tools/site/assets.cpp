@@ -5,7 +5,7 @@
 #include "core/netlist/read.hpp"
 #include "tools/web/assets.hpp"
 
-// What the site's page puts into the file system in memory, and the programs have in themselves.
+// Reads from the in-memory file system, which the site's page fills, the files that are compiled into the programs.
 namespace rheonet {
 namespace {
 
@@ -25,7 +25,7 @@ Asset report_page() {
 
 }  // namespace web
 
-/// That of all components. The code that makes it would be a twentieth of the module.
+/// The JSON Schema of all components, read from a file: the code that generates it would be a twentieth of the module.
 std::string json_schema(Declarations) { return text_of("/schema.json"); }
 
 }  // namespace rheonet

@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# fetch_sources.sh FOLDER: unpacks the sources of the solvers in FOLDER, from the place that apt gets their libraries from, as
-# sundials/ and suitesparse/. What is there already is not fetched again.
+# fetch_sources.sh FOLDER: downloads the sources of the solvers from apt's server and unpacks them in FOLDER as sundials/ and
+# suitesparse/. Existing folders are not fetched again.
 set -euo pipefail
 folder=$1
 
-# PACKAGE of the library, ARCHIVE of its source, SHA256 of that, NAME of the folder, and what is needed of it.
+# Arguments: PACKAGE of the library, ARCHIVE of its source, SHA256 of the archive, NAME of the folder, paths to unpack.
 fetch() {
   local package=$1 archive=$2 sum=$3 name=$4
   shift 4

@@ -21,7 +21,7 @@ for (const entry of readdirSync(netlists, { withFileTypes: true, recursive: true
   files[`/netlists/${relative(netlists, path)}`] = entry.name === 'README.md' ? (text.match(/[\w-]+\.toml/g) ?? []).join('\n') : text;
 }
 
-// What the module holds besides rheonet.
+// Third-party parts of the module, with their licences.
 const held = [
   ['SUNDIALS 6.4.1 (BSD-3-Clause)', join(sources, 'sundials/LICENSE')],
   ['AMD, BTF, COLAMD and KLU of SuiteSparse 5.12.0 (BSD-3-Clause, LGPL-2.1-or-later)', join(sources, 'suitesparse/LICENSE.txt')],

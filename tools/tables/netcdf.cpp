@@ -32,7 +32,7 @@ void add_text(int file, int variable, const char* name, const std::string& text)
 class NetcdfFile : public TableFile {
  public:
   NetcdfFile(const char* path, const Layout& layout) {
-    H5dont_atexit();  // HDF5 would write what is left of a file at the end of the process, and crash where the disk is full
+    H5dont_atexit();  // At exit HDF5 would flush unfinished files, and crash if the disk is full.
     errno = 0;
     check(nc_create(path, NC_NETCDF4 | NC_CLOBBER, &file_));
     try {

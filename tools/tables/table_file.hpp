@@ -39,7 +39,7 @@ class TableFile {
   virtual void close() = 0;
 };
 
-/// What each of these libraries has: `open_table_file`. Replaces the file. Throws std::system_error.
+/// The function `open_table_file` that each of these libraries exports. Replaces the file. Throws std::system_error.
 using OpenTableFile = TableFile*(const char* path, const Layout& layout);
 
 }  // namespace rheonet::tables

@@ -4,11 +4,11 @@
 
 namespace rheonet::web {
 
-/// What the browser gets, as it was bundled when rheonet was built: see README.md. Empty if that could not be done.
+/// The files for the browser, bundled when rheonet was built: see README.md. Empty if that could not be done.
 struct Asset {
   std::string_view text;
-  const char* type;  ///< as HTTP names it
-  std::string_view gzipped = {};  ///< the same, compressed; empty for small ones
+  const char* type;  ///< Content type.
+  std::string_view gzipped = {};  ///< The text compressed with gzip; empty for small files.
 };
 
 Asset report_page();       ///< complete but for its data

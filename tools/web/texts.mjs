@@ -1,6 +1,6 @@
-// The texts in the sources of the playground: which are given to t() (src/messages.js), and which look like texts but are not.
-// `NODE_PACKAGES=build/release/tools/web node tools/web/texts.mjs` prints what is missing in the sources and in the files of src/messages; the test
-// tests/web/messages.test.mjs fails on the same.
+// The texts in the sources of the playground: those passed to t() (src/messages.js), and those that look like texts but are not passed to it.
+// `NODE_PACKAGES=build/release/tools/web node tools/web/texts.mjs` prints the faults in the sources and in the files of src/messages. The test
+// tests/web/messages.test.mjs fails on the same faults.
 import { readdirSync, readFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import { dirname, join, resolve } from 'node:path';
@@ -43,7 +43,7 @@ function isShown(node, ancestors) {
   });
 }
 
-// The text of a string or a template, with {} for what is put in; absent for anything else.
+// The text of a string or of a template with {} for each expression; undefined for any other node.
 function textOf(node) {
   if (node.type === 'Literal' && typeof node.value === 'string') return node.value;
   if (node.type === 'TemplateLiteral') return node.quasis.map((each) => each.value.cooked).join('{}');
@@ -105,7 +105,7 @@ export function textsOf(parse, names = readdirSync(source).filter((name) => name
 
 export const messages = Object.fromEntries(readdirSync(join(source, 'messages')).map((name) => [name.replace('.json', ''), JSON.parse(readFileSync(join(source, 'messages', name), 'utf8'))]));
 
-// What the files of translations lack, and what they have that nobody uses.
+// Faults of the translation files: missing and unused texts.
 export function faultsOf({ used }, languages = messages) {
   const faults = [];
   const places = (text) => [...text.matchAll(/\{\w+\}/g)].map(([place]) => place).sort().join();

@@ -4,9 +4,9 @@
 
 namespace rheonet::hand {
 
-/// What a program written by hand for one scene gives: its equations in IDA, as a careful engineer writes them.
+/// The result of a hand-written program: the equations of one scene, solved with IDA as a careful engineer would write them.
 struct Run {
-  std::vector<std::vector<double>> rows;  ///< of each time asked for: what each program says, in SI
+  std::vector<std::vector<double>> rows;  ///< For each output time the values that the program documents, in SI.
   long steps = 0;
   long events = 0;
 };

@@ -17,10 +17,10 @@
 
 namespace rheonet::hand {
 
-/// IDA with what belongs to it: all that is common to the programs written by hand.
+/// IDA with its vectors, matrix and linear solver: the common part of the hand-written programs.
 class Ida {
  public:
-  /// From y = y' = 0. `entries`: of a sparse matrix, solved with KLU; 0 for a dense one.
+  /// Starts from y = y' = 0. `entries`: number of nonzeros of a sparse matrix, solved with KLU; 0: a dense matrix.
   Ida(sunindextype size, sunindextype entries, IDAResFn residual, IDALsJacFn jacobian, double tolerance, double absolute) {
     SUNContext_Create(nullptr, &context);
     y = N_VNew_Serial(size, context);
@@ -104,7 +104,7 @@ Run follow(Ida& ida, const std::vector<double>& times, Row row, Restart restart)
   return run;
 }
 
-/// The same of what has no roots.
+/// The same for equations without root functions.
 template <class Row>
 Run follow(Ida& ida, const std::vector<double>& times, Row row) {
   return follow(ida, times, row, [] {});

@@ -1,11 +1,11 @@
-"""What the commands `compare`, `effects` and `precision` find out, as data."""
+"""The results of the commands `compare`, `effects` and `precision` as data."""
 
 import dataclasses
 
 
 @dataclasses.dataclass(frozen=True)
 class Difference:
-    """How far a record of one run is from that of another. All values are in SI units."""
+    """The difference between a record in two runs. All values are in SI units."""
 
     largest: float  #: largest magnitude of the difference
     time: float  #: time of the largest difference [s]
@@ -106,7 +106,7 @@ def _model(found):
 
 
 class Effects:
-    """What each physical effect contributes to the records of a scene. str() of it is what `rheonet effects` prints."""
+    """The contribution of each physical effect to the records of a scene. str() of it is the output of `rheonet effects`."""
 
     def __init__(self, study, units):
         """Made by Scene.effects()."""

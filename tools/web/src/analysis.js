@@ -1,10 +1,10 @@
-// Something that takes many runs of a scene: its progress while they go on, and then what they gave.
+// An analysis that needs many runs of a scene: shows its progress, then its results.
 import { task } from './api.js';
 import { element } from './dom.js';
 import { t } from './messages.js';
 
 export class Analysis {
-  // `draw(messages)`: nodes that show what came, by kind of message; `charts` are the charts in them.
+  // `draw(messages)` returns nodes that show the messages, by kind. `charts` has the charts in these nodes.
   constructor(kind, draw) {
     this.kind = kind;
     this.draw = draw;
@@ -12,7 +12,7 @@ export class Analysis {
     this.drawn = [];
   }
 
-  // A part of the page for the scene of a request. What was shown before stays, pale, until the new result is there.
+  // The part of the page for the scene of a request. An earlier result stays, greyed out, until the new one arrives.
   show(request) {
     this.stop();
     this.host = element('div', { class: 'analysis' });
@@ -42,7 +42,7 @@ export class Analysis {
     this.host.replaceChildren(...this.drawn);
   }
 
-  // A newer text makes the runs of an older one useless.
+  // Ends the runs of an outdated text.
   stop() {
     this.control?.abort();
     this.control = null;

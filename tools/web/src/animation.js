@@ -1,4 +1,4 @@
-// The run as it goes on in the schematic: played, paused, slowly or at once at any time of it.
+// Animation of a run in the schematic, with play, pause, speed and a time slider.
 import { element } from './dom.js';
 import { EnergyBars } from './energy-bars.js';
 import { ForceArrows } from './force-arrows.js';
@@ -9,17 +9,17 @@ import { SymbolMotion } from './symbol-motion.js';
 import { Turning } from './turning.js';
 import { number, shownIn, timeShown, withUnit } from './units.js';
 
-const lengths = [2, 4, 8, 16, 32, 64]; // s that a run may take
-const usual = 8; // s
+const lengths = [2, 4, 8, 16, 32, 64]; // Durations of a playback [s].
+const usual = 8; // Default duration [s].
 const stepwise = matchMedia('(prefers-reduced-motion: reduce)');
-const step = 500; // ms between two pictures, for those who do not want to see things move
-const gapOfTurning = 8; // px between the plates of a stop of a shaft where they are farthest apart
+const step = 500; // Time between two pictures for users who prefer reduced motion [ms].
+const gapOfTurning = 8; // Largest gap between the plates of a rotational stop [px].
 
 export class Animation {
   constructor(host, { onframe }) {
     this.onframe = onframe;
     this.playing = false;
-    this.place = 0; // of the run, 0 to 1
+    this.place = 0; // Position in the run, 0 to 1.
     this.button = element('button', { type: 'button', class: 'play', 'aria-pressed': 'false', onclick: () => this.toggle() }, t('▶ Play'));
     this.scrub = element('input', { type: 'range', min: '0', max: '1000', value: '0', 'aria-label': t('Time') });
     this.scrub.addEventListener('input', () => {
@@ -34,7 +34,7 @@ export class Animation {
     this.legend = element('p', { class: 'motion-legend' });
     this.bars = new EnergyBars(this.energy = element('div', { class: 'energy-bars', role: 'group', 'aria-label': t('Energy'), hidden: true }));
     this.host = host;
-    host.hidden = true; // until there is something to move
+    host.hidden = true; // Until there is a run to animate.
     host.append(this.button, this.scrub, this.clock, this.speed, ...Object.values(this.toggles), this.legend, this.energy);
   }
 
@@ -42,7 +42,7 @@ export class Animation {
     return this.toggles[name].firstChild.checked && !this.toggles[name].hidden;
   }
 
-  // What is to move: the drawing and its run.
+  // Sets the drawing and its run.
   attach(svg, data) {
     const named = ({ scene }) => `${scene.file} ${scene.title}`;
     const isOther = this.data && named(this.data) !== named(data);
@@ -77,14 +77,14 @@ export class Animation {
     this.labels = new Labels(svg, this.parts, farthestShift);
   }
 
-  // The displacements at which an element touches: as it is pressed together in the drawing, and as it is drawn apart.
+  // The displacements at which a stop is in contact: when compressed in the drawing, and when extended.
   boundsOf(elements) {
     const bounds = new Map();
     for (const { name, a, numbers } of elements) {
       const part = this.parts.find((each) => each.name === name && each.node.classList.contains('stop'));
       if (!part?.left || !part.right) continue;
       const { lower = -Infinity, upper = Infinity } = numbers;
-      // The displacement grows as the first node nears the second one from the left.
+      // The displacement increases as the first node approaches the second one from the left.
       bounds.set(name, part.left === a ? { pressed: upper, apart: lower, sign: 1 } : { pressed: -lower, apart: -upper, sign: -1 });
     }
     return bounds;
@@ -116,7 +116,7 @@ export class Animation {
     if (this.speed.selectedIndex < 0) this.speed.value = String(usual);
   }
 
-  // The scales, and what the colours are.
+  // The scales and the meaning of the colours.
   showLegend() {
     const { scale } = this;
     const parts = [];

@@ -1,4 +1,4 @@
-// What the playground asks for: of the server that the page comes from, or of rheonet in the page itself.
+// Requests of the playground, sent to the server of the page or to rheonet as WebAssembly in the page.
 import * as engine from './engine.js';
 import { t } from './messages.js';
 import * as server from './server.js';
@@ -9,13 +9,13 @@ const transport = document.querySelector('meta[name="rheonet-engine"]') ? engine
 export const isAlone = transport === engine;
 
 // folder(): the netlists, for the gallery.
-// open(file): a netlist: its text, and what tells that from another text that the file may get.
-// save(file, text, version): writes one, over another only if that has this version; its new version. An error says in `there`
-//   which version is in the way.
-// task(request, onmessage, signal): gives a task; onmessage gets each message as it comes.
+// open(file): the text of a netlist and its version.
+// save(file, text, version): writes a netlist and returns its new version. An existing file is replaced only if it has the given version;
+//   otherwise the error has the file's version in `there`.
+// task(request, onmessage, signal): starts a task; calls onmessage for each message when it arrives.
 export const { folder, open, save, task } = transport;
 
-// The one message of a kind that a task is for; throws what is wrong.
+// The message of one kind that a task returns; throws its error.
 async function answer(request, kind) {
   let made = null;
   let wrong = null;

@@ -2,7 +2,7 @@
 import { catalogue as ask } from './api.js';
 import { t } from './messages.js';
 
-// The groups that rheonet tells the types by, in the order in which one builds, as the page calls them.
+// The names in the page of rheonet's groups of types, in the order of building a network.
 export const groupNames = () => ({ 'At a node': t('At a node'), 'Between two nodes': t('Between two nodes'), Transmissions: t('Transmissions'), Signals: t('Signals') });
 
 class Catalogue {
@@ -16,19 +16,19 @@ class Catalogue {
     return this.byName.get(name) ?? null;
   }
 
-  // Types by their groups.
+  // Types by group.
   get groups() {
     const groups = new Map(Object.keys(groupNames()).map((name) => [name, []]));
     for (const type of this.types) groups.set(type.group, [...(groups.get(type.group) ?? []), type]);
     return groups;
   }
 
-  // Pairs of a name and a value in TOML with which an element of this type can begin.
+  // Initial parameters of an element of this type: pairs of a name and a value in TOML.
   firstValues({ parameters }, domain) {
     return parameters.filter(({ begins }) => begins).map(({ name, first }) => [name[domain], first[domain]]);
   }
 
-  // What a signal may be: its shapes, each with the other keys that it needs.
+  // The shapes of a signal, each with the keys that it requires.
   get shapes() {
     const { properties, oneOf, dependentRequired } = this.signalTable;
     return oneOf.map(({ required: [name] }) => ({ name, description: properties[name].description, needs: dependentRequired[name] ?? [] })).filter(({ name }) => name !== 'table');
@@ -42,7 +42,7 @@ class Catalogue {
 let known = null;
 export function catalogue() {
   known ??= ask().then((message) => new Catalogue(message)).catch((error) => {
-    known = null; // the next one who asks tries again
+    known = null; // The next call tries again.
     throw error;
   });
   return known;

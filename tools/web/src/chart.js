@@ -1,19 +1,19 @@
-// What curves over time and curves of one quantity against another have in common: axes, colours, zoom by keys.
+// Common parts of charts over time and of charts of one quantity against another: axes, colours, zoom by keyboard.
 import uPlot from 'uplot';
 import 'uplot/dist/uPlot.min.css';
 import { element, onTheme, styled } from './dom.js';
 import { along, spaced } from './units.js';
 
 const charts = new Set();
-const settling = 700; // ms without a change after which an axis fits its values again
+const settling = 700; // Time without a change after which an axis is fitted to its values again [ms].
 
 onTheme(() => charts.forEach((chart) => chart.repaint()));
 
 export const colour = (k) => styled(`--curve-${(k % 7) + 1}`);
 export const dashes = [[], [7, 3], [2, 2], [10, 3, 2, 3]]; // px
-export const borders = ['solid', 'dashed', 'dotted', 'dashed']; // the same, of a legend
+export const borders = ['solid', 'dashed', 'dotted', 'dashed']; // The same, for a legend.
 
-// The colour of a curve on white paper, whatever the theme of the page is.
+// The colour of a curve on white paper, independent of the theme of the page.
 export function colourInPrint(k) {
   const sheet = element('div', { 'data-theme': 'light', hidden: true });
   document.body.append(sheet);
@@ -22,7 +22,7 @@ export function colourInPrint(k) {
   return value;
 }
 
-// `factor`: the size of the unit along it, where that is another than that of the values.
+// `factor`: the unit of the axis, in units of the values.
 export function axis(label, extra = {}, factor = () => 1) {
   return {
     label,
@@ -39,7 +39,7 @@ export function axis(label, extra = {}, factor = () => 1) {
 
 const character = 7; // px, about
 
-// The room that the numbers along an axis take: to its side, and from one to the next.
+// The space for the numbers along an axis: beside it, and from one number to the next.
 export function sideways(_, values) {
   return Math.max(64, 20 + character * Math.max(0, ...(values ?? []).map((text) => text.length)));
 }
@@ -48,22 +48,22 @@ export function apart(_plot, _axis, min, max, length) {
   return Math.min(Math.max(60, character * (longest + 3)), length);
 }
 
-// A value that is read from a curve: three digits more than the height of what is shown.
+// A value read from a curve, with a resolution of a hundredth of the visible range or better.
 export const read = (plot, scale, value, least, factor = 1) => spaced(value / factor, (plot.scales[scale].max - plot.scales[scale].min) / 100 / factor, least);
 
-// What an axis shows of values from min to max: somewhat more. What is 0 all the time has its line in the middle.
+// The range of an axis for values from min to max, with a margin. A curve that is 0 throughout is in the middle.
 export const shownOf = (min, max, more) => (min === 0 && max === 0 ? [-1, 1] : uPlot.rangeNum(min, max, more, true));
 
 export const labelOf = (quantity, shown) => (shown.name ? `${quantity} [${shown.name}]` : quantity);
 
-// A chart: it fills its host, and zooms by keys.
+// A chart that fills its host and zooms by keyboard.
 export class Chart {
   constructor(host, height) {
     this.host = host;
     this.height = height;
-    this.ranges = {}; // of the axes as they are drawn
-    this.isHeld = false; // somebody wants the axes to stay
-    this.isMoving = false; // values are changing: the axes only grow
+    this.ranges = {}; // The current ranges of the axes.
+    this.isHeld = false; // The user has fixed the axes.
+    this.isMoving = false; // Values are changing: the axes may only grow.
     charts.add(this);
     this.watch = new ResizeObserver(() => {
       const width = this.width();
@@ -77,7 +77,7 @@ export class Chart {
     return Math.floor(this.host.clientWidth);
   }
 
-  // The range of an axis, given the one that fits its values.
+  // The range of an axis, given the range that fits its values.
   rangeOf(key, [min, max]) {
     const before = this.ranges[key];
     if (before && this.isHeld) return before;
@@ -85,7 +85,7 @@ export class Chart {
     return this.ranges[key];
   }
 
-  // While values change, neither axes nor units jump; they settle after the last change.
+  // While values change, axes and units do not jump; they are fitted after the last change.
   moves() {
     this.isMoving = true;
     clearTimeout(this.settles);

@@ -1,4 +1,4 @@
-// Which of several variants is edited.
+// The choice of the variant that is edited.
 import { element } from './dom.js';
 import { t } from './messages.js';
 

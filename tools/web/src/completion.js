@@ -1,4 +1,4 @@
-// What the editor offers while one types, and says of what the mouse rests on: from the schema of netlists, and from the network itself.
+// Completion and hover texts of the editor, from the schema of netlists and from the network.
 import { autocompletion, snippetCompletion } from '@codemirror/autocomplete';
 import { hoverTooltip } from '@codemirror/view';
 import { element } from './dom.js';
@@ -12,18 +12,18 @@ import { inPrint } from './units.js';
 const nodeKeys = new Set(['between', 'at', 'support']);
 
 class Assistant {
-  // `drawing` knows the element types, the network as it was read last, and what can be recorded.
+  // `drawing` has the element types, the network that was read last, and the possible records.
   constructor(drawing) {
     Object.assign(this, { drawing, catalogue: drawing.catalogue, netlist: drawing.lastRead, records: drawing.scene?.records ?? [] });
     this.schema = new SchemaPath(drawing.catalogue.schema);
   }
 
-  // Elements of models are described as those of the scene are.
+  // Elements of models have the same description as elements of the scene.
   typeAt({ path, given }) {
     return path.includes('elements') ? given.get('type')?.replace(/["']/g, '') ?? this.typeOfEntry(path) : null;
   }
 
-  // That of an entry with a header of its own, or whose type stands behind the place.
+  // The type of an entry with a header of its own, or whose type follows the position.
   typeOfEntry(path) {
     const type = this.netlist?.root.at(...path)?.at('type');
     return typeof type?.plain === 'string' ? type.plain : null;
@@ -77,7 +77,7 @@ class Assistant {
     return parameters.map((name) => option(name, 'variable', t('a parameter of this netlist')));
   }
 
-  // Behind a number and a blank: the unit of the quantity.
+  // The units of the quantity, after a number and a blank.
   units(place) {
     const typed = /^[+-]?[\d.]+(?:e[+-]?\d+)?\s+(\S*)$/i.exec(place.word);
     if (!typed || !place.quote) return null;
@@ -111,7 +111,7 @@ class Assistant {
     return at.length > 1 ? t('{type} between {nodes}', { type, nodes }) : t('{type} at {nodes}', { type, nodes });
   }
 
-  // What there is to say of a word; null if nothing.
+  // The description of a word; null if there is none.
   explain(place, word) {
     if (place.key === null) return place.isHeader ? this.schema.describe(this.catalogue.schema.properties[word], new Map()) : this.schema.keysAt(place.path, this.givenAt(place)).get(word) ?? (place.path.at(-1) === 'elements' ? this.aboutElement(word) : null);
     const type = place.key === 'type' && this.catalogue.find(word);
@@ -124,7 +124,7 @@ class Assistant {
   }
 }
 
-// `drawingOf()`: the drawing, as soon as there is one.
+// `drawingOf()` returns the drawing as soon as it exists.
 export function assistance(drawingOf) {
   const assistant = async () => {
     const drawing = drawingOf();

@@ -1,9 +1,9 @@
-// How far runs are from the first, record by record.
+// Differences of runs from the first run, for each record.
 import { element, table } from './dom.js';
 import { t } from './messages.js';
 import { number, withUnit } from './units.js';
 
-// The value of a column at a time, straight between rows.
+// The value of a column at a time, interpolated linearly between rows.
 function interpolate(time, values, t) {
   let low = 0;
   let high = time.length - 1;
@@ -26,7 +26,7 @@ export function difference(first, second, path) {
   let squares = 0;
   let count = 0;
   first.time.forEach((time, k) => {
-    if (first.time[k + 1] === time) return; // of the two sides of a jump the later one, as in the other run
+    if (first.time[k + 1] === time) return; // At a jump take the right limit, as in the other run.
     const other = interpolate(second.time, b, time);
     if (Number.isNaN(other)) return;
     const off = Math.abs(a[k] - other);

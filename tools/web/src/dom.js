@@ -1,4 +1,4 @@
-// Makes elements: element('p', { class: 'note' }, 'text', child, ...).
+// Creates an element: element('p', { class: 'note' }, 'text', child, ...).
 export function element(name, attributes = {}, ...children) {
   const node = document.createElement(name);
   for (const [key, value] of Object.entries(attributes)) {
@@ -13,7 +13,7 @@ export function element(name, attributes = {}, ...children) {
 }
 import { t } from './messages.js';
 
-// Tells its style sheet on which side of a part of the page that scrolls there is more of it.
+// Marks for the style sheet the sides on which a scrollable part of the page continues.
 function tellMore(host) {
   const look = () => {
     host.classList.toggle('more-left', host.scrollLeft > 1);
@@ -38,25 +38,25 @@ export function table(headings, rows, caption) {
   return host;
 }
 
-// A path, a name or a unit, which a line breaks behind its dots and the like, and not within a word.
+// A path, a name or a unit that can be broken after its dots, underscores and so on, but not within a word.
 export const breakable = (name) => name.split(/(?<=[._*/·])/).flatMap((part, k) => (k ? [element('wbr'), part] : [part]));
 
 let last = 0;
 export const freshId = (word) => `${word}-${++last}`;
 
-// A value of the style sheet, of the theme that is on.
+// A value of the style sheet in the current theme.
 export const styled = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 
-// Calls back whenever colours change: another theme, or paper.
+// Calls `changed` when the colours change: another theme, or printing.
 export function onTheme(changed) {
   matchMedia('print').addEventListener('change', changed);
   new MutationObserver(changed).observe(document.documentElement, { attributes: true, attributeFilter: ['data-theme'] });
 }
 
-// The least size of a drawing that is to be read, of its own: its smallest letters have 10 px, and are read from 9 px on.
+// Smallest legible scale of a drawing: its smallest letters have 10 px and are legible at 9 px.
 export const legible = 0.9;
 
-// The drawing of a network, in the colours of the page; one that is to be read is never smaller than one can read.
+// The drawing of a network in the colours of the page. With `read`, its scale is never below `legible`.
 export function schematicOf(scene, { read = true } = {}) {
   const host = element('div', { class: 'schematic' });
   if (!scene.schematic) {

@@ -1,16 +1,16 @@
-// How large a schematic is drawn: all of it if its letters can be read then, else as large as they need, to be moved about. Buttons,
-// the wheel with Ctrl, and two fingers zoom; one finger or the mouse, on what is empty, moves it.
+// Zoom and position of the schematic. By default it is fitted to its place, unless its letters would be too small to read. Buttons, the
+// wheel with Ctrl, and two fingers zoom; dragging the background with one finger or the mouse moves the schematic.
 import { element, legible } from './dom.js';
 import { t } from './messages.js';
 
-const largest = 4; // times its own size
-const factor = 1.25; // of a press on a button
+const largest = 4; // Largest zoom.
+const factor = 1.25; // Zoom factor of a button.
 
 export class DrawingView {
   constructor(host) {
     this.host = host;
-    this.zoom = null; // nobody has chosen
-    this.most = 1; // that is chosen without anybody's asking, times its own size
+    this.zoom = null; // null: not chosen by the user.
+    this.most = 1; // Largest automatic zoom.
     const button = (text, label, act) => element('button', { type: 'button', 'aria-label': /\w/.test(text) ? null : label, title: label, onclick: act }, text);
     this.controls = element('div', { class: 'zoom', role: 'group', 'aria-label': t('Size of the schematic') },
       button('−', t('Smaller'), () => this.by(1 / factor)), button('+', t('Larger'), () => this.by(factor)), button(t('Fit'), t('All of the schematic'), () => this.fit()));
@@ -24,7 +24,7 @@ export class DrawingView {
     this.listenToFingers();
   }
 
-  // Another drawing.
+  // Call for a new drawing.
   attach() {
     this.scroller = this.host.querySelector('.schematic');
     this.svg = this.scroller?.querySelector('svg') ?? null;
@@ -36,7 +36,7 @@ export class DrawingView {
     this.place();
   }
 
-  // The zoom at which all of it is seen.
+  // The zoom at which the whole drawing is visible.
   get whole() {
     const { clientWidth: width, clientHeight: height } = this.host;
     return Math.min(width / this.size.width, (height || Infinity) / this.size.height);
@@ -59,7 +59,7 @@ export class DrawingView {
     const before = this.shown;
     this.zoom = Math.min(largest, Math.max(Math.min(legible, this.whole) / 2, before * times));
     this.place();
-    // What is under the fingers stays there.
+    // Keep the point under the fingers fixed.
     const ratio = this.zoom / before;
     this.scroller.scrollLeft = (this.scroller.scrollLeft + at.x) * ratio - at.x;
     this.scroller.scrollTop = (this.scroller.scrollTop + at.y) * ratio - at.y;

@@ -1,4 +1,4 @@
-// Drawing by mouse, touch or keyboard: what is done in the schematic becomes a change of the netlist, which the schematic then follows.
+// Drawing by mouse, touch or keyboard: an action in the schematic changes the netlist, and the schematic is drawn again from it.
 import './drawing.css';
 import { catalogue } from './catalogue.js';
 import { element } from './dom.js';
@@ -8,7 +8,7 @@ import { t } from './messages.js';
 import { NetworkText } from './network-text.js';
 import { Palette } from './palette.js';
 
-// The schematic before there is an element: ground alone.
+// The schematic without elements: only ground.
 const emptyPicture = () => `<svg viewBox="0 0 320 90" class="empty-picture" fill="none" stroke="currentColor" stroke-width="1.4" aria-label="${t('Empty schematic')}">
 <path class="ground" d="M290 20V70" stroke-width="2.2"/><path d="M290 24l7 6M290 32l7 6M290 40l7 6M290 48l7 6M290 56l7 6M290 64l7 6" stroke-width="0.8"/></svg>`;
 const groundAlone = { elements: [], joints: [{ element: '', node: 'ground', x: 290, y: 45 }] };
@@ -76,7 +76,7 @@ export class Drawing {
     return this.scene?.elements.find(({ a, b }) => node !== 'ground' && (a === node || b === node))?.domain ?? this.domain;
   }
 
-  // What rheonet has read last: of the text as it is if `isNew`.
+  // Takes the scene that rheonet read last, from `text`. `isNew` says whether this is the current text.
   known(scene, text) {
     this.scene = scene;
     this.sceneText = text;
@@ -88,13 +88,13 @@ export class Drawing {
     return Boolean(this.scene) && this.sceneText === this.desk.editor.text;
   }
 
-  // Mistakes of the text as it is.
+  // Takes the mistakes of the current text.
   told(mistakes) {
     this.mistakes = mistakes;
     this.follow();
   }
 
-  // Another scene comes.
+  // Call before another scene is opened.
   clear() {
     this.scene = this.sceneText = this.lastGood = null;
     this.mistakes = [];
@@ -102,12 +102,12 @@ export class Drawing {
     this.cancel();
   }
 
-  // There is a network to show, or at least a text of one.
+  // Whether the netlist has no elements yet.
   get isEmpty() {
     return this.read() && this.netlist.elementNames.length === 0;
   }
 
-  // Reads the text as it is now; whether it can be read.
+  // Parses the current text. Returns whether it is valid TOML.
   read() {
     const { text } = this.desk.editor;
     if (this.netlist?.text === text) return true;
@@ -122,13 +122,13 @@ export class Drawing {
     }
   }
 
-  // The network as it was read last, also while the text is no TOML for the moment.
+  // The network that was read last, also while the current text is not valid TOML.
   get lastRead() {
     if (!this.lastGood && this.sceneText) this.lastGood = new NetworkText(this.sceneText);
     return this.lastGood;
   }
 
-  // The schematic is another one.
+  // Call for a new schematic.
   attach(scene = this.scene) {
     const svg = this.host.querySelector('.schematic svg');
     if (this.isOn && this.isEmpty) {
@@ -137,19 +137,19 @@ export class Drawing {
       this.handles.attach(this.host.firstElementChild, groundAlone);
     } else if (svg && scene) {
       this.handles.attach(svg, scene, this.isOn);
-      this.desk.view.attach(); // it may be wider now
+      this.desk.view.attach(); // The drawing may be wider now.
       this.handles.show(this.inspector.target);
     }
   }
 
-  // The text has changed, here or in the editor, or something is known of it.
+  // Call when the text has changed, or when rheonet has read it.
   follow() {
     if (this.catalogue && this.read() && this.isOn) this.palette.show(this.catalogue, this.domain, this.ownTypes);
     if (this.isOn && this.isEmpty && this.host.querySelector('.schematic')) this.attach();
     if (this.catalogue) this.inspector.follow();
   }
 
-  // Models and laws of this netlist; how many nodes an instance has.
+  // Models and laws of this netlist, with the number of nodes of an instance.
   get ownTypes() {
     if (!this.lastRead) return [];
     const { root } = this.lastRead;
@@ -158,12 +158,12 @@ export class Drawing {
     return [...laws, ...models];
   }
 
-  // One step of undo.
+  // Makes changes as one undo step.
   edit(changes) {
     if (changes.length) this.desk.editor.edit(changes);
   }
 
-  // Says why nothing can be changed; whether that is so.
+  // Whether nothing can be changed; shows the reason then.
   cannot() {
     if (this.read()) return false;
     this.desk.answer(t('Line {line} of the netlist is not TOML: mend it there first.', { line: this.fault.line }), true);
@@ -251,10 +251,10 @@ export class Drawing {
     }
     const parameters = known ? this.catalogue.firstValues(known, domain) : this.firstOfOwn(type);
     this.edit([...this.netlist.addElement(name, type, wiring, parameters), ...this.recordOf(name, nodes)]);
-    this.inspector.show({ element: name }, true, false); // the next element goes where this one has come
+    this.inspector.show({ element: name }, true, false); // The next element is placed after this one.
   }
 
-  // Quantities that a new block takes in, until others are chosen.
+  // Default inputs of a new block.
   signalsFor({ type, least_inputs: least }) {
     const [node] = this.netlist.nodeNames;
     if (node) return Array(Math.max(1, least)).fill(JSON.stringify(`${node}.velocity`));
@@ -268,7 +268,7 @@ export class Drawing {
     return list?.kind === 'array' ? list.items.filter(({ plain }) => plain).map(({ plain }) => [plain, '1']) : [];
   }
 
-  // What is worth plotting of a new element, where the netlist says what is recorded at all.
+  // The records to add for a new element, if the netlist has a list of records.
   recordOf(name, nodes) {
     const { netlist } = this;
     const record = netlist.root.at('simulate', 'record');

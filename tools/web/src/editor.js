@@ -32,7 +32,7 @@ const look = EditorView.theme({
 });
 
 export class Editor {
-  // onchange(text, byUser); onmove(changes): positions move; `extensions` of CodeMirror.
+  // onchange(text, byUser); onmove(changes): positions have moved; `extensions`: of CodeMirror.
   constructor(host, { onchange, onmove, extensions = [] }) {
     this.extensions = extensions;
     this.onchange = onchange;
@@ -61,12 +61,12 @@ export class Editor {
     return this.view.state.doc.toString();
   }
 
-  // Another text, without a way back to the old one.
+  // Loads another text and clears the undo history.
   load(text) {
     this.view.setState(this.stateOf(text));
   }
 
-  // Puts something in place of a part of the text; not as if it had been typed.
+  // Replaces a part of the text, not as user input.
   replace(from, to, insert) {
     this.replaceAll([{ from, to, insert }]);
   }
@@ -77,7 +77,7 @@ export class Editor {
     this.quiet = false;
   }
 
-  // Changes several places at once, as one step of undo; the first of them comes into sight.
+  // Changes several places as one undo step, and scrolls to the first.
   edit(changes) {
     this.quiet = true;
     this.view.dispatch({ changes, annotations: isolateHistory.of('full'), effects: EditorView.scrollIntoView(changes[0].from, { y: 'nearest', yMargin: 40 }) });

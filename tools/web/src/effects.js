@@ -1,4 +1,4 @@
-// What each physical effect of a scene matters: the scene without it, beside the full model.
+// Contribution of each physical effect: the scene without it, compared with the full model.
 import { breakable, element, table } from './dom.js';
 import { t } from './messages.js';
 import { TimeChart, TimeGroup } from './time-chart.js';
@@ -15,7 +15,7 @@ const names = {
 };
 const inWords = (effects) => effects.map((effect) => names[effect] ?? effect).join(', ');
 
-// What is less than the runs are accurate to says nothing.
+// Changes below the accuracy of the runs are shown as an upper bound.
 const percent = (part, accuracy) => (part < accuracy ? `< ${number(100 * accuracy, 1)} %` : `${number(100 * part, 2)} %`);
 
 function verdict({ effects, barest, steps, within, accuracy, full }) {
@@ -28,7 +28,7 @@ function verdict({ effects, barest, steps, within, accuracy, full }) {
       effects: inWords(barest), off: percent(Math.max(model.worst?.relative ?? 0, accuracy), accuracy), steps: grouped(model.steps), all: grouped(full.steps) })}`;
 }
 
-// Models without some of the effects, with the time that they take where there is a clock of CPU time.
+// Models without some effects, with their CPU time if it can be measured.
 function modelsOf(models, { full, accuracy }, nameOf, caption) {
   const isTimed = full.cpu > 0;
   const row = (name, { failure, worst, steps, cpu }) => [name,
@@ -46,7 +46,7 @@ function modelsOf(models, { full, accuracy }, nameOf, caption) {
 
 const most = 20;
 
-// What each effect changes in each record, the records first that change most.
+// The change of each record by each effect, in descending order of the largest change.
 function recordsOf({ each, records, accuracy }) {
   const possible = each.filter(({ failure }) => !failure);
   if (!possible.length) return null;

@@ -10,7 +10,7 @@ import { Sliders } from './sliders.js';
 
 const quoted = JSON.stringify;
 
-// The entry of [elements] that an element of the schematic comes from, and what it is within that.
+// The entry of [elements] that defines an element of the schematic, and the element's path within the entry.
 function originOf(netlist, name) {
   const parts = name.split('.');
   for (let k = parts.length; k > 0; --k) {
@@ -39,7 +39,7 @@ class ElementCard {
     this.knobs = this.slidersOf(this.value);
   }
 
-  // As it is at the time: a slider may have changed the text since the card was made.
+  // The current netlist: a slider may have changed the text since the card was made.
   get netlist() {
     this.drawing.read();
     return this.drawing.netlist;
@@ -65,7 +65,7 @@ class ElementCard {
     editor.goTo(this.netlist.placeOf(...path));
   }
 
-  // Where the element is made by something else, what that is.
+  // The model, assembly or repetition that creates the element, if any.
   origin() {
     const notes = [];
     const link = (text, ...path) => element('button', { type: 'button', class: 'link', onclick: () => this.go(...path) }, text);
@@ -115,7 +115,7 @@ class ElementCard {
     return choiceField({ label: t('type'), value: this.type, options: alike.map((type) => [type.type[this.domain], type.type[this.domain]]), onset: (type) => this.edit(this.retyped(type)) }).row;
   }
 
-  // What the new type knows too stays. What it needs besides takes the place of what it does not know.
+  // Changes the type. Parameters that the new type has too are kept; the others are replaced by those that it requires.
   retyped(type) {
     const { netlist, path, domain } = this;
     const next = this.drawing.catalogue.find(type);
@@ -165,7 +165,7 @@ class ElementCard {
     return rows;
   }
 
-  // Given and needed parameters first, the others folded away.
+  // Given and required parameters first, the others folded.
   parameters(path, value, type) {
     const known = this.drawing.catalogue.find(type);
     if (!known) return this.freeParameters(path, value, type);
@@ -206,13 +206,13 @@ class ElementCard {
     return typeof value?.plain === 'string' ? this.netlist.root.at('parameters', value.plain) : null;
   }
 
-  // The sliders follow what has been written into the fields.
+  // Updates the sliders from the fields.
   refresh() {
     this.value = this.netlist.element(this.entry);
     if (this.sliders && this.drawing.isNew) this.sliders.show(this.knobsIn(this.value), false);
   }
 
-  // Of several parameters exactly one of which must be given, another one goes.
+  // Sets a parameter and removes the one that it excludes, if exactly one of several must be given.
   givenInstead(path, value, parameter, toml) {
     const name = parameter.name[this.domain];
     const others = parameter.alternative && !value.at(name) ? (this.known?.parameters ?? []).filter((other) => other.alternative && value.at(other.name[this.domain])) : [];
@@ -220,7 +220,7 @@ class ElementCard {
     return this.netlist.replace([...path, others[0].name[this.domain]], name, toml);
   }
 
-  // Parameters of a model or a law: those that the instance gives, and the defaults where this netlist defines it.
+  // Parameters of a model or a law: the values of the instance, and defaults if this netlist defines the model or law.
   freeParameters(path, value, type) {
     const declared = (this.netlist.root.at('models', type) ?? this.netlist.root.at('laws', type))?.at('parameters');
     const tables = declared?.kind === 'array' ? declared.items : declared ? [declared] : [];
@@ -244,7 +244,7 @@ class ElementCard {
     }).row;
   }
 
-  // The numbers in the entry, and those of parameters that it names.
+  // The numbers in the entry, and the numbers of the parameters that it refers to.
   knobsIn(value) {
     const { desk, scene } = this.drawing;
     const starts = new Set();
@@ -257,7 +257,7 @@ class ElementCard {
     return scene.sliders.filter(({ line, column }) => starts.has(desk.editor.offset(line, column)));
   }
 
-  // A slider for each of them, by the place of the number.
+  // Sliders of these numbers, by the position of the number.
   slidersOf(value) {
     const mine = this.drawing.isNew ? this.knobsIn(value) : [];
     if (!mine.length) return new Map();
@@ -272,7 +272,7 @@ class ElementCard {
       element('button', { type: 'button', class: 'delete', onclick: () => this.drawing.remove(this.entry) }, t('Delete')));
   }
 
-  // Mistakes that rheonet finds within the element; those of a field mark it.
+  // Shows the mistakes within the element; a field with a mistake is marked.
   wrong(mistakes) {
     const entry = this.netlist.root.at('elements').entries.get(this.entry);
     const ranges = entry.statements.map((statement) => [statement.range[0], (statement.type === 'TOMLTable' ? statement.body.at(-1) ?? statement : statement).range[1]]);

@@ -1,10 +1,10 @@
-// Where the energy of a run is at a time: what was supplied, and beside it what is stored and what has been dissipated.
+// Bars of the energy account at an instant: energy supplied, stored and dissipated.
 import { element } from './dom.js';
 import { largestOf, shownIn, spaced } from './units.js';
 
 const kinds = ['supplied', 'stored', 'dissipated'];
 
-// The slope at a point of a curve that does not swing beyond its points (Fritsch and Butland 1984).
+// The slope at a point of a monotone cubic interpolant (Fritsch and Butland 1984).
 function slope(times, values, k) {
   const rise = (j) => (values[j + 1] - values[j]) / (times[j + 1] - times[j]);
   const [before, after] = [k > 0 && times[k] > times[k - 1] ? rise(k - 1) : null, times[k + 1] > times[k] ? rise(k) : null];
@@ -15,7 +15,7 @@ function slope(times, values, k) {
   return (a + b) / (a / before + b / after);
 }
 
-// The value between two steps of the integrator, which may be far apart.
+// The interpolated value between two steps of the integrator, which may be far apart.
 function between(times, values, k, time) {
   const length = times[k + 1] - times[k];
   if (!(length > 0)) return values[k + 1];
@@ -47,7 +47,7 @@ export class EnergyBars {
     for (const kind of kinds) {
       const value = between(times, this.energy[kind], k, time);
       const { bar, value: output } = this.bars[kind];
-      // Below 0 to the left.
+      // Negative values extend to the left.
       const share = this.largest > 0 ? value / this.largest : 0;
       bar.style.width = `${(50 * Math.abs(share)).toFixed(2)}%`;
       bar.style.left = `${(50 + 50 * Math.min(0, share)).toFixed(2)}%`;

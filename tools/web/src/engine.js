@@ -1,10 +1,10 @@
-// The transport to rheonet as WebAssembly, which runs in Web Workers of this page. Its parts (the worker's script, the module, the
-// netlists) are elements of the page, in the page that is a single file, or else files beside it.
+// The transport to rheonet as WebAssembly, which runs in Web Workers of this page. The worker's script, the module and the netlists are
+// embedded in a single-file page, or are separate files.
 import { t } from './messages.js';
 
 async function inflated(part) {
   const embedded = document.getElementById(`part-${part}`)?.textContent;
-  // Not fetch: a page that was opened from disk may not use it, even for a data: address.
+  // Do not use fetch: a page opened from disk may not, even for a data: address.
   const bytes = embedded
     ? new Blob([Uint8Array.from(atob(embedded), (c) => c.charCodeAt(0))])
     : await (await answered(`${part}.gz`)).blob();
@@ -28,7 +28,7 @@ async function loaded() {
 }
 let parts = null;
 
-// A worker does one request at a time; one that is cancelled while it runs ends with its worker.
+// A worker handles one request at a time. To cancel a running request, its worker is terminated.
 class Desk {
   constructor() {
     this.request = null;
@@ -86,18 +86,18 @@ class Desk {
   cancel() {
     const { worker } = this;
     if (worker) this.restart();
-    if (worker) this.start().catch(() => {}); // so that the next request finds it ready
+    if (worker) this.start().catch(() => {}); // Ready for the next request.
     this.end(new DOMException('cancelled', 'AbortError'));
   }
 }
 
-// Two: what the editor shows does not wait for a report or for the pictures of the gallery.
+// Two workers, so that the editor does not wait for a report or for the pictures of the gallery.
 const desks = [new Desk(), new Desk()];
 const waiting = [];
 
 function next() {
   for (const desk of desks) {
-    // The first is kept for what has a session: the netlist in the editor.
+    // The first worker is reserved for requests with a session: the netlist in the editor.
     const k = desk.request ? -1 : waiting.findIndex(({ body }) => (desk === desks[0] ? body.task === 'show' && body.session : true));
     if (k >= 0) desk.give(waiting.splice(k, 1)[0]);
   }

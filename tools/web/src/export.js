@@ -1,4 +1,4 @@
-// Files of what is seen.
+// Export of figures, schematics and rows as files.
 import { file } from './api.js';
 import { element } from './dom.js';
 import { t } from './messages.js';
@@ -11,7 +11,7 @@ export function download(blob, name) {
   setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
 }
 
-// An SVG as pixels, twice as fine as it is large.
+// An SVG as pixels, with two pixels per px.
 export function raster(svg) {
   return new Promise((resolve, reject) => {
     const image = new Image();

@@ -7,17 +7,17 @@ import { inPrint } from './units.js';
 
 const number = /^[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i;
 
-// A value as one reads it: a text without its quotes, all else as it stands in the netlist.
+// A value for reading: a text without its quotes, any other value as written in the netlist.
 export function readable(netlist, value) {
   if (!value?.node) return '';
   return typeof value.plain === 'string' ? value.plain : netlist.source(value.node);
 }
 
-// What is typed, as TOML. A number alone keeps the unit that was there, or gets that of the quantity.
+// Converts typed text to TOML. A number without a unit keeps the unit of the value before, or gets the unit of the quantity.
 export function asToml(typed, before, unit) {
   const text = typed.trim();
   if (/^[[{]/.test(text)) {
-    new NetlistText(`value = ${text}`); // throws where it is no TOML
+    new NetlistText(`value = ${text}`); // Throws if it is not valid TOML.
     return text;
   }
   const had = /^[+-]?[\d.]+(?:e[+-]?\d+)?\s+(.+)$/i.exec(before ?? '')?.[1] ?? (before ? '' : unit);
@@ -57,7 +57,7 @@ export function valueField({ label, symbol = '', description = '', value = '', p
   const row = element('div', { class: 'field' },
     element('label', { for: id }, label, symbol ? element('i', {}, ` ${symbol}`) : null), input, give,
     element('span', { class: 'about', id: `${id}-about` }, inWords(description), unit ? ` [${inPrint(unit)}]` : ''), why, list);
-  // The value is another one; what is being typed stays.
+  // Shows a new value, but keeps text that is being typed.
   const show = (now) => {
     if (now !== value) refuse('');
     if (document.activeElement !== input || input.value === value) input.value = now;

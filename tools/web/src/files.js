@@ -1,4 +1,4 @@
-// Where netlists come from and go to: the folder, links, the history of the browser, files of what is seen.
+// Sources and destinations of netlists: the folder, links, the browser's history, exported files.
 import { folder, open } from './api.js';
 import { download, exporters } from './export.js';
 import { firstScene } from './first-scene.js';
@@ -8,7 +8,7 @@ import { t } from './messages.js';
 import { showCode } from './qr-dialog.js';
 import { SaveDialog } from './save-dialog.js';
 
-const pause = 400; // ms after a change until it is kept: browsers count how often somebody writes into their history
+const pause = 400; // Delay after a change until it is kept [ms]: browsers limit the rate of writes to the history.
 
 const folderOf = (file) => file.slice(0, file.lastIndexOf('/') + 1);
 
@@ -37,7 +37,7 @@ export class Files {
     }
   }
 
-  // What the address names, or else a scene to begin with. Changes that were never saved are as they were left.
+  // Opens the scene of the address, or else the first scene. Unsaved changes are restored.
   async openAddress(left) {
     if (left?.scenes) this.desk.begin(left, t('The netlist is as you left it; it is not saved.'));
     else if (await this.openLink()) return true;
@@ -54,7 +54,7 @@ export class Files {
       this.desk.begin({ scenes: scenes.slice(0, 2).map(({ text, file }) => ({ text: String(text), file: String(file) })), plots });
       return true;
     } catch {
-      // What the browser says of it (of characters and compression) helps nobody.
+      // The browser's message (on characters and compression) would not help the user.
       this.desk.notify(t('The link cannot be read: a part of it is missing, or was changed on its way. Ask for it once more.'));
       return false;
     }
@@ -79,7 +79,7 @@ export class Files {
     }
   }
 
-  // What comes next is of no file; there is a way back to what was there before.
+  // Leaves the file for a scene without a file, with a new entry in the browser's history.
   leave() {
     this.keep();
     history.pushState(null, '', location.pathname + location.search);
@@ -94,7 +94,7 @@ export class Files {
     this.later = setTimeout(() => this.keep(), pause);
   }
 
-  // What is not saved anywhere is kept with the page, for who comes back to it or loads it anew.
+  // Keeps unsaved changes in the browser's history, for going back or reloading.
   keep() {
     clearTimeout(this.later);
     const { variants, active, plots } = this.desk;
@@ -103,7 +103,7 @@ export class Files {
     try {
       history.replaceState(unsaved ? { scenes, active, plots: plots.state } : null, '', location.href);
     } catch {
-      // One that is too long for that is not kept.
+      // Texts that are too long are not kept.
     }
   }
 

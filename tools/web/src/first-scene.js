@@ -1,4 +1,4 @@
-// What the playground begins with.
+// The first scene of the playground.
 export const firstScene = `title = "A spring and a mass"
 
 [elements]
@@ -12,7 +12,7 @@ block = { position = "1 cm" }
 stop = "2 s"
 `;
 
-// What a scene of one's own begins with.
+// The text of a new scene.
 export const emptyScene = `title = "New scene"
 
 [elements]

@@ -1,4 +1,4 @@
-// What there is to say of a run, folded away until somebody opens it.
+// Foldable sections with the details of a run.
 import './analysis.css';
 import { Analysis } from './analysis.js';
 import { explain } from './api.js';
@@ -21,12 +21,12 @@ export class Folds {
     this.sweep = new SweepPanel();
   }
 
-  // The text has changed: what takes long is of no use any more.
+  // Call when the text has changed: ends the analyses, whose results are outdated.
   stop() {
     [this.effects, this.prices, this.sweep].forEach((analysis) => analysis.stop());
   }
 
-  // Those that are open stay open. `runs` are all that are compared, `data` is the one that is edited.
+  // Shows the sections; open ones stay open. `runs` has all compared runs, `data` is the run that is edited.
   show(data, runs) {
     this.opened = new Set([...this.host.querySelectorAll('details[open]')].map((details) => details.dataset.name));
     this.charts.forEach((chart) => chart.destroy());
@@ -50,7 +50,7 @@ export class Folds {
     ].filter(Boolean));
   }
 
-  // It takes a moment, in which what was said before stays.
+  // The explanation takes a moment; the earlier one stays until then.
   explanation() {
     const host = element('div', {}, this.explained ?? element('p', { class: 'note' }, t('Looking at it …')));
     const request = this.request();
@@ -63,7 +63,7 @@ export class Folds {
     return host;
   }
 
-  // Its content is made when it is opened; `name` is the same in every language.
+  // A section whose content is created when it is opened; `name` is the same in every language.
   fold(name, heading, make) {
     const details = element('details', { 'data-name': name, open: this.opened.has(name) }, element('summary', {}, heading));
     const fill = () => {

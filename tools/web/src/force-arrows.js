@@ -1,4 +1,4 @@
-// The forces of a run as arrows at the nodes on which they act, to one scale each for forces and for torques.
+// The forces of a run as arrows at the nodes on which they act, with one scale for forces and one for torques.
 import { largestOf } from './units.js';
 import { roundBelow } from './motion-scale.js';
 
@@ -35,7 +35,7 @@ export class ForceArrows {
       .map(([side, x]) => arrow(x, part[side], part[side] === element.b ? 1 : -1));
   }
 
-  // shiftOf(node): how far it is from where it is drawn [px].
+  // shiftOf(node): displacement of a node from its drawn position [px].
   show(i, shiftOf) {
     for (const { line, x, y, node, sign, column, unit } of this.arrows) {
       const length = sign * (column[Math.min(i, column.length - 1)] ?? 0) * (this.scales.get(unit)?.px ?? 0);

@@ -8,7 +8,7 @@ const unit = '(?:[kmµMnG]?(?:N|m|s|g|J|W|Pa|Hz|K)|rad|deg|rpm|min|dyn|cm|mm|cSt
 const before = '(?<=\\d[ \\u00a0]?|[[(]|\\b(?:in|of|per) )';
 const units = new RegExp(`${before}${unit}(?:\\^\\d)?(?:[*/]\\(?${unit}(?:\\^-?[\\d.]+)?\\)?)+(?:\\^-?[\\d.]+)?(?![\\w^(])|(?<=\\d[ \\u00a0]?)${unit}(?:\\^\\d\\b|(?=[\\s.,;:)]|$))`, 'g');
 
-// A text in which units stand as netlists write them.
+// Replaces units in netlist notation by their printed form.
 export const withUnits = (text) => String(text).replace(units, (found) => inPrint(found));
 
 const greek = new Set(['alpha', 'beta', 'gamma', 'delta', 'epsilon', 'zeta', 'eta', 'theta', 'kappa', 'lambda', 'mu', 'nu', 'pi', 'rho', 'sigma', 'tau', 'phi', 'omega']);
@@ -19,7 +19,7 @@ const isMath = (word) => greek.has(word) || functions.has(word) || isSymbol(word
 
 const tokens = /(\d+(?:\.\d+)?(?:e[+-]?\d+)?)|([A-Za-z]+\d?)|(<=|>=|[-+*/^()=<>,])|(\s+)|(.)/gsu;
 
-// The TeX of an expression, or null of what is none. A product without a sign binds closer than a fraction: m k/B^2 is (m k)/B^2.
+// The TeX of an expression; null if the text is not an expression. Juxtaposition binds closer than division: m k/B^2 is (m k)/B^2.
 export function toTex(text) {
   const words = [...text.matchAll(tokens)].filter(([, , , , blank]) => blank === undefined);
   let at = 0;
@@ -96,7 +96,7 @@ export function toTex(text) {
   }
 }
 
-// Longest pieces of a text that are formulas: with an operator or a function, or a Greek letter by itself.
+// The longest pieces of a text that are formulas: with an operator or a function, or a single Greek letter.
 function pieces(text) {
   const all = [...text.matchAll(tokens)].map((match) => ({ text: match[0], number: match[1], word: match[2], sign: match[3], blank: match[4], at: match.index }));
   const belongs = ({ number, word, sign, blank }) => number !== undefined || (word !== undefined && isMath(word)) || (sign !== undefined && sign !== ',') || blank !== undefined;
@@ -135,7 +135,7 @@ function set(tex, source) {
   return host;
 }
 
-// A text as texts and elements: units and formulas in it are set.
+// A text as text nodes and elements, with units and formulas typeset.
 export function typeset(text) {
   const parts = [];
   let last = 0;

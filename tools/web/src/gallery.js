@@ -7,7 +7,7 @@ import { inWords } from './sections.js';
 
 const words = new Intl.Collator('en', { numeric: true });
 const byName = (a, b) => words.compare(a.title || a.file, b.title || b.file) || words.compare(a.file, b.file);
-// In the order in which the page of their folder tells of them; what it leaves out comes last.
+// In the order of their first mention in the README of the folder; others come last.
 export const inOrder = (a, b) => (a.place ?? Infinity) - (b.place ?? Infinity) || byName(a, b);
 
 // Scenes for beginners come first, scenes that test the solver last.
@@ -40,7 +40,7 @@ export class Gallery {
 
   show({ scenes, left_out: leftOut, all_visited: allVisited }) {
     const groups = new Map();
-    this.names = new Map(); // how many scenes have a title
+    this.names = new Map(); // Number of scenes with each title.
     for (const scene of scenes) {
       this.names.set(scene.title, (this.names.get(scene.title) ?? 0) + 1);
       const folder = scene.file.includes('/') ? scene.file.slice(0, scene.file.lastIndexOf('/')) : '';
@@ -85,7 +85,7 @@ export class Gallery {
     }
   }
 
-  // What it would be about is of no use until it can be read.
+  // Shows the mistake in place of the summary.
   refuse(card, { line, column, message }) {
     card.querySelector('.card-picture').replaceChildren(element('span', { class: 'note' }, t('no schematic')));
     const about = card.querySelector('.card-about');

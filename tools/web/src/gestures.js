@@ -1,4 +1,4 @@
-// Fingers on a plot: one moves what is zoomed in, two zoom. Until then one finger scrolls the page, as everywhere.
+// Touch gestures on a plot: two fingers zoom, and one finger moves a zoomed plot. On an unzoomed plot one finger scrolls the page.
 
 const range = ({ min, max }) => [min, max];
 
@@ -21,7 +21,7 @@ export function listenToFingers(chart) {
     const zoom = now.count > 1 && now.spread > 0 ? before.spread / now.spread : 1;
     const { x, y } = chart.plot.scales;
     const from = before;
-    // What was under the fingers is under them again.
+    // Keep the points under the fingers fixed.
     const next = ([min, max], was, is, length) => {
       const at = min + ((max - min) * was) / length;
       const span = (max - min) * zoom;

@@ -1,4 +1,4 @@
-// What can be pointed at in the schematic: its elements, its nodes, and the ends of the elements, which can be dragged to other nodes.
+// Handles in the schematic: elements, nodes, and the ends of elements, which can be dragged to other nodes.
 import { t } from './messages.js';
 
 const namespace = 'http://www.w3.org/2000/svg';
@@ -20,19 +20,19 @@ export class Handles {
     this.onremove = onremove;
     this.place = 0; // which handle the Tab key reaches
     this.buttons = [];
-    // Before what moves the whole drawing.
+    // In the capture phase, before the handler that moves the whole drawing.
     host.addEventListener('pointerdown', (event) => this.down(event), true);
     host.addEventListener('click', (event) => this.click(event));
   }
 
-  // `ground`: there is to be ground, also where nothing leads there yet.
+  // `ground`: show ground even if no element is connected to it.
   attach(svg, scene, ground = false) {
     this.svg = svg;
     svg.querySelector('.handles')?.remove();
     let { joints } = scene;
     if (ground && !svg.querySelector('path.ground')) joints = [...joints, this.addGround(svg)];
     else if (svg.querySelector('.added-ground')) joints = [...joints, this.ground];
-    // A picture would hide what is in it from screen readers.
+    // The role of an image would hide its parts from screen readers.
     svg.setAttribute('role', 'group');
     const layer = shape('g', { class: 'handles' });
     const walls = [...svg.querySelectorAll('path.ground')].map((path) => ({ path, node: 'ground' }));
@@ -57,7 +57,7 @@ export class Handles {
     layer.addEventListener('focusin', (event) => this.rove(this.buttons.indexOf(event.target)));
   }
 
-  // Beside the drawing, which becomes that much wider.
+  // Adds ground beside the drawing, which is widened for it.
   addGround(svg) {
     const { width, height } = svg.viewBox.baseVal;
     const [room, y] = [46, height / 2];
@@ -84,7 +84,7 @@ export class Handles {
     return rect;
   }
 
-  // Not in the middle of a mass, where its name is.
+  // A place beside the middle of a mass, where its name is.
   besideLabel(svg, element, x, y) {
     const box = svg.querySelector(`[data-element="${CSS.escape(element)}"]`)?.getBBox();
     const isInside = box && x > box.x + 1 && x < box.x + box.width - 1 && y > box.y + 1 && y < box.y + box.height - 1;
@@ -97,7 +97,7 @@ export class Handles {
     handle.setAttribute('tabindex', '-1');
   }
 
-  // One of them is reached by Tab, the others by the arrow keys.
+  // Roving focus: Tab reaches one handle, the arrow keys reach the others.
   rove(k) {
     if (k < 0) return;
     this.place = k;
@@ -120,13 +120,13 @@ export class Handles {
     return handle ? { node: handle.dataset.at } : {};
   }
 
-  // What is at a place of the window; null if that is not the drawing.
+  // The target at a place of the window; null outside the drawing.
   at(x, y) {
     const node = document.elementFromPoint(x, y);
     return node && this.host.contains(node) ? this.targetOf(node) : null;
   }
 
-  // The end of an element that is nearest to a place of the window: its node.
+  // The node at the end of an element that is nearest to a place of the window.
   nearestEnd(element, x, y) {
     const away = (handle) => {
       const box = handle.getBoundingClientRect();

@@ -1,4 +1,4 @@
-// What can be done, and by which keys.
+// Help: the actions and their keys.
 import { element } from './dom.js';
 import { t } from './messages.js';
 

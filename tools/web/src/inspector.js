@@ -1,4 +1,4 @@
-// The card of what is chosen in the schematic: an element, a node, or the run.
+// The card of the selected element or node, or of the run.
 import { element } from './dom.js';
 import { elementCard } from './element-card.js';
 import { readable } from './fields.js';
@@ -6,7 +6,7 @@ import { t } from './messages.js';
 import { nodeCard } from './node-card.js';
 import { runCard } from './run-card.js';
 
-// A card but for the values in its fields: as long as that is the same, the fields stay, and whoever is in one of them.
+// The structure of a card without the values of its fields. While it is unchanged, the fields are kept, and the focus with them.
 function shapeOf({ heading, parts }, withSliders) {
   const html = parts.map((part) => part.outerHTML.replace(/ (id|for|list|value|aria-describedby|aria-valuetext|aria-invalid|open)="[^"]*"/g, ''));
   return [heading, ...html.map((part) => (withSliders ? part : part.replace(/<input type="range"[^>]*>/g, '')))].join('\n');
@@ -20,7 +20,7 @@ export class Inspector {
     host.hidden = true;
   }
 
-  // `focus`: the keyboard goes on in the card; `scroll`: it comes into sight where it is not.
+  // `focus`: move the keyboard focus into the card; `scroll`: scroll it into view.
   show(target, focus = false, scroll = true) {
     this.target = target;
     this.shown = false;
@@ -68,7 +68,7 @@ export class Inspector {
       this.close();
       return;
     }
-    // Sliders are known when rheonet has read the text.
+    // Sliders exist only after rheonet has read the text.
     const isSame = next === this.card || (this.shown && shapeOf(next, drawing.isNew) === shapeOf(this.card, drawing.isNew));
     if (isSame) this.refresh();
     else this.replace(next);

@@ -1,5 +1,4 @@
-// The keys of the whole page; those of a field, of a dialog or of the editor are left to them.
-// `acts`: what each key does, by its name.
+// The keys of the whole page, except within a field, a dialog or the editor. `acts`: the action of each key, by its name.
 export function listenToKeys({ save, acts }) {
   document.addEventListener('keydown', (event) => {
     if ((event.ctrlKey || event.metaKey) && event.key === 's') {

@@ -1,15 +1,15 @@
-// The texts of a schematic in motion: each goes along with what it names, as far as it stays apart from the others, from the
-// ground, masses and rods.
+// The labels of an animated schematic. Each moves with the node or symbol that it names, unless it would touch another label, ground, a
+// mass or a rod.
 
 const apart = 2; // px
-const passes = 12; // one moves the next; between two, half of what is left goes in each
+const passes = 12; // Each pass pushes neighbours apart, and halves the error of a label between two others.
 
 function boxOf(node) {
   const { x, y, width, height } = node.getBBox();
   return { x, y, width, height };
 }
 
-// What a text goes along with: the node that it names, or the symbol that it stands in, above or below.
+// The owner of a label: the node that it names, or the symbol that it is in, above or below.
 function ownerOf(node, box, parts) {
   if (node.getAttribute('font-style') === 'italic') return { left: node.textContent };
   const x = box.x + box.width / 2;
@@ -25,7 +25,7 @@ function ownerOf(node, box, parts) {
 }
 
 export class Labels {
-  // `parts`: the symbols, with their boxes and the nodes `left` and `right` of them; none moves further than `most` px.
+  // `parts`: the symbols, with their boxes and the nodes `left` and `right`; none moves further than `most` px.
   constructor(svg, parts, most) {
     this.labels = [...svg.querySelectorAll('text')].map((node) => {
       const box = boxOf(node);
@@ -41,13 +41,13 @@ export class Labels {
       for (const b of row.slice(k + 1)) {
         const gap = b.x - a.x - a.width;
         if (gap > 2 * most) break;
-        // What is well over another as it is drawn stays so.
+        // Labels that already overlap clearly in the drawing are left alone.
         if (!(a.fixed && b.fixed) && gap >= -apart && a.y < b.y + b.height && b.y < a.y + a.height) this.neighbours.push({ a, b, room: Math.max(0, gap - apart) });
       }
     });
   }
 
-  // shiftOf(node of the network): how far it is from where it is drawn, px.
+  // shiftOf(node of the network): displacement of a node from its drawn position [px].
   place(shiftOf) {
     for (const label of this.labels) {
       const { left, right } = label.owner;

@@ -1,11 +1,11 @@
-// The language of the page: chosen before, or else the browser's, or else English.
+// The language of the page: the user's earlier choice, else the browser's language, else English.
 import { use } from './messages.js';
 import de from './messages/de.json';
 import es from './messages/es.json';
 import fr from './messages/fr.json';
 
 const translations = { de, es, fr };
-// Each by its own name, for those who do not know the others.
+// Each language by its own name.
 export const languages = { en: 'English', de: 'Deutsch', es: 'Español', fr: 'Français' };
 
 const key = 'language';
@@ -14,7 +14,7 @@ function remembered() {
   try {
     return localStorage.getItem(key);
   } catch {
-    return null; // without storage it is the browser's
+    return null; // Without storage use the browser's language.
   }
 }
 
@@ -22,12 +22,12 @@ export const language = [remembered(), ...navigator.languages.map((each) => each
 use(translations[language] ?? {});
 document.documentElement.lang = language;
 
-// The page begins anew in another language: its texts are everywhere.
+// Stores the language and reloads the page, whose texts are in many places.
 export function choose(other) {
   try {
     localStorage.setItem(key, other);
   } catch {
-    return; // where nothing can be remembered the page stays in the language of the browser
+    return; // Without storage the page stays in the browser's language.
   }
   location.reload();
 }

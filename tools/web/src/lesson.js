@@ -22,12 +22,12 @@ export class Lesson {
     return Boolean(this.told);
   }
 
-  // Nothing of the result may be seen yet.
+  // Whether the results must still be hidden.
   get isConcealing() {
     return document.body.classList.contains('predicting');
   }
 
-  // The lesson of a netlist that has just been opened. What is wrong with its file is said in its place.
+  // Starts the lesson of a netlist that has just been opened. Mistakes in the lesson's file are shown in its place.
   async begin({ text, file }) {
     this.end();
     const asked = (this.asked = {});
@@ -108,7 +108,7 @@ export class Lesson {
     this.ask.append(this.prediction.host, done);
   }
 
-  // The prediction stands: now the run may be seen.
+  // Shows the run after the prediction has been made.
   compare() {
     const { told, prediction } = this;
     prediction.settle();

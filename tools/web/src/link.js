@@ -1,6 +1,6 @@
-// A link that carries a scene: all of it stands behind the # of the address, which no server gets to see. It is deflated with one of
-// two preset dictionaries, the texts of link-words, so that only what differs from them takes room. A link needs the dictionary that
-// it was made with for ever: these files never change; other words get another letter.
+// A link that contains a scene. The scene follows the # of the address, which browsers do not send to servers. It is deflated with one of
+// two preset dictionaries, the texts of link-words, so that only differences from them take space. Old links need their dictionary forever:
+// never change these files; add a new dictionary with another letter.
 import { deflateSync, Inflate } from 'fflate';
 import a from './link-words/a.txt';
 import b from './link-words/b.txt';
@@ -8,7 +8,7 @@ import { t } from './messages.js';
 
 const bytes = (text) => new TextEncoder().encode(text);
 const dictionaries = { a: bytes(a), b: bytes(b) };
-const between = '\0'; // a netlist cannot have it
+const between = '\0'; // Does not occur in netlists.
 
 function letters(packed) {
   let text = '';
@@ -16,8 +16,8 @@ function letters(packed) {
   return btoa(text).replaceAll('+', '-').replaceAll('/', '_').replace(/=+$/, '');
 }
 
-const most = 4 << 20; // bytes of a scene: a small link may unpack to much
-const piece = 1 << 10; // bytes of a link, which unpack to 1 MB at most
+const most = 4 << 20; // Largest scene [bytes]; a small link could unpack to a huge text.
+const piece = 1 << 10; // Bytes of a link that are unpacked at a time, to 1 MB at most.
 
 function inflated(text, dictionary) {
   const packed = Uint8Array.from(atob(text.replaceAll('-', '+').replaceAll('_', '/')), (c) => c.charCodeAt(0));
@@ -41,7 +41,7 @@ function inflated(text, dictionary) {
   return new TextDecoder('utf-8', { fatal: true }).decode(whole);
 }
 
-// What stands behind the #: scenes, and which plots are shown of them.
+// The text after the #: scenes and the choice of plots.
 export function encode({ scenes, plots }) {
   const isChosen = Object.values(plots).some((value) => value !== null);
   const content = bytes([isChosen ? JSON.stringify(plots) : '', ...scenes.flatMap(({ file, text }) => [file, text])].join(between));
@@ -49,8 +49,7 @@ export function encode({ scenes, plots }) {
   return all.sort((one, other) => one.length - other.length)[0];
 }
 
-// `kind` and `value` are what stands before and behind the first = of the address. Links of the kind `scene` are from before
-// there were dictionaries.
+// `kind` and `value` are the text before and after the first = of the address. Links of the kind `scene` are older than the dictionaries.
 export function decode(kind, value) {
   if (kind === 'scene') return JSON.parse(inflated(value));
   const dictionary = dictionaries[value[0]];

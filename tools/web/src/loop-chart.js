@@ -6,7 +6,7 @@ import { listenToFingers } from './gestures.js';
 import { t } from './messages.js';
 import { alongDecades, largestOf, number, shownIn, timeShown } from './units.js';
 
-// Where a logarithmic axis has its numbers. uPlot's own choice never ends on some ranges that do not begin at a power of ten.
+// The ticks of a logarithmic axis. uPlot's own function does not terminate on some ranges that do not begin at a power of ten.
 function decades(plot, axis, min, max) {
   const low = Math.floor(Math.log10(min));
   const high = Math.ceil(Math.log10(max));
@@ -18,7 +18,7 @@ function decades(plot, axis, min, max) {
 }
 
 export class LoopChart extends Chart {
-  // curves: [{ name, time, x, y }]; what is along the axes: { quantity, unit, as }, or { log: true } of both.
+  // curves: [{ name, time, x, y }]; x and y: the axes, { quantity, unit, as }, or { log: true } for both.
   constructor(host, { x, y, curves, height = 380, marks = false }) {
     super(host, height);
     this.marks = marks;
@@ -148,7 +148,7 @@ export class LoopChart extends Chart {
     this.readout.textContent = `${curve.name}: ${read(this.plot, 'x', xs[i], 5)} ${this.units[0].name}, ${read(this.plot, 'y', ys[i], 5)} ${this.units[1].name}${time}`;
   }
 
-  // Where the curves are at a time.
+  // Marks the points of the curves at a time.
   mark(_, indices) {
     indices.forEach((i, k) => this.dots[k] && this.show(k, i));
   }

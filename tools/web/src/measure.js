@@ -1,11 +1,11 @@
-// Two cursors in plots over time: what the curves are at each, how far they are apart, and their period and peak between them.
+// Two cursors in plots over time: values at each cursor, their difference, and period and peak between the cursors.
 import { element, table } from './dom.js';
 import { t } from './messages.js';
 import { number, spaced } from './units.js';
 
 const names = ['1', '2'];
 
-// The value at a time, straight between rows. Of the two sides of a jump the later one.
+// The value at a time, interpolated linearly between rows. At a jump it is the right limit.
 export function valueAt(times, values, time) {
   let low = 0;
   let high = times.length - 1;
@@ -20,8 +20,8 @@ export function valueAt(times, values, time) {
   return length > 0 ? values[low] + ((values[high] - values[low]) * (time - times[low])) / length : values[high];
 }
 
-// Of a curve from one time to another: its highest and lowest values, when it has them, and the mean time from one upward passage
-// through the middle between the two to the next; NaN where there are not two.
+// Properties of a curve in an interval: maximum and minimum with their times, and the period, which is the mean time between upward
+// crossings of the middle between them; NaN if there are fewer than two crossings.
 export function between(times, values, from, to) {
   const rows = [[from, valueAt(times, values, from)]];
   times.forEach((time, k) => time > from && time < to && rows.push([time, values[k]]));
@@ -56,7 +56,7 @@ export class Measure {
     this.show();
   }
 
-  // After the plots have been drawn anew, or have other values.
+  // Call when the plots have been redrawn or have new values.
   show() {
     const charts = this.charts().filter((chart) => chart.span);
     this.host.hidden = !this.isOn || !charts.length;
@@ -84,7 +84,7 @@ export class Measure {
       line.setPointerCapture(event.pointerId);
       line.focus({ preventScroll: true });
     });
-    line.addEventListener('mousedown', (event) => event.stopPropagation()); // not a zoom of the plot
+    line.addEventListener('mousedown', (event) => event.stopPropagation()); // Do not zoom the plot.
     line.addEventListener('pointermove', (event) => {
       if (!line.hasPointerCapture(event.pointerId)) return;
       event.stopPropagation();

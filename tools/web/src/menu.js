@@ -1,4 +1,4 @@
-// A button that opens a list of things to do; it works by the keyboard as menus do.
+// A button that opens a menu, with the usual keys of a menu.
 import { element, freshId } from './dom.js';
 
 export function menu(label, items) {

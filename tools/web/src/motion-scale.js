@@ -1,13 +1,13 @@
-// To which scale a schematic moves: one for all positions, and one for all angles. What goes further than the drawing has room for
-// stays where it is drawn, together with all that goes along with it, and tells of its way by dashes that run.
+// The scales of an animated schematic: one for all positions, and one for all angles. A group of nodes that moves further than the drawing
+// allows stays in place; running dashes show its motion.
 import { largestOf } from './units.js';
 
-const room = 40; // px that a node may move to either side
-const pressed = 20; // px by which an element may be pressed together: its texts still fit
-const least = 3; // px that half of the elements must be seen to move, for all to be to this scale
-const usual = 24; // px that the motion of such an element takes where not all can be
-const turnsPerSecond = 1; // that are drawn, at most, while the run takes `playing` seconds
-const playing = 8; // s
+const room = 40; // Largest displacement of a node to either side [px].
+const pressed = 20; // Largest compression of an element, at which its texts still fit [px].
+const least = 3; // The common scale is used if the median motion of the elements is at least this [px].
+const usual = 24; // Otherwise the scale gives the median motion this size [px].
+const turnsPerSecond = 1; // Largest speed of rotation on the screen, if the run is played in `playing` seconds.
+const playing = 8; // [s]
 
 const median = (values) => [...values].sort((a, b) => a - b)[Math.floor((values.length - 1) / 2)];
 
@@ -17,7 +17,7 @@ export function roundBelow(value) {
   return (value >= 5 * power * (1 - 1e-9) ? 5 : value >= 2 * power * (1 - 1e-9) ? 2 : 1) * power;
 }
 
-// Positions from the middle of their way, where they are far from 0 all the time.
+// Positions relative to the middle of their range, if they are far from 0 throughout.
 function fromNearby(column) {
   let low = Infinity;
   let high = -Infinity;
@@ -50,7 +50,7 @@ export class MotionScale {
     const sizes = stretches.filter((size) => size > 0);
     const farthest = largestOf(this.lengths.values());
     this.px = 0;
-    this.along = new Map(); // of nodes that go along with each other: the first of them
+    this.along = new Map(); // For each node that moves in a group: a node that represents it.
     this.drift = new Map();
     if (!(farthest > 0)) return;
     const all = Math.min(room / farthest, sizes.length ? pressed / Math.max(...sizes) : Infinity);
@@ -59,7 +59,7 @@ export class MotionScale {
     if (!isSeen) this.follow();
   }
 
-  // Nodes between which nothing stretches beyond the room go along with each other. Of those that leave it the mean is taken out.
+  // Groups the nodes between which no element stretches beyond `room`. The mean motion of a group that leaves the drawing is subtracted.
   follow() {
     const top = (node) => {
       let at = node;
@@ -105,7 +105,7 @@ export class MotionScale {
     return column[Math.min(i, column.length - 1)];
   }
 
-  // How far a node is from where it is drawn [px].
+  // Displacement of a node from its drawn position [px].
   shift(node, i) {
     const column = this.lengths.get(node);
     if (!column) return 0;
@@ -114,7 +114,7 @@ export class MotionScale {
     return Math.min(room, Math.max(-room, far));
   }
 
-  // How far what goes along with a node has run beyond the drawing [px]; 0 of what stays in it.
+  // Subtracted mean motion of the group of a node [px]; 0 for a group that stays in the drawing.
   run(node, i) {
     const drift = this.drift.get(node);
     return drift ? this.px * this.at(drift, i) : 0;
@@ -124,7 +124,7 @@ export class MotionScale {
     return this.drift.has(node);
   }
 
-  // How far a node has turned, as it is drawn [rad]; null of one that does not turn.
+  // Drawn angle of a node [rad]; null for a node that does not rotate.
   angle(node, i) {
     if (node === 'ground') return 0;
     const column = this.angles.get(node);

@@ -1,10 +1,10 @@
-// Where a position in a netlist is, also of one that is being typed and is no TOML yet: the tables around it, the key, the text in quotes.
+// The context of a position in a netlist: enclosing tables, key, quoted text. Works also for incomplete text that is not valid TOML.
 
 const bare = /[A-Za-z0-9_-]/;
 
-// { path: the names of the tables and the numbers of the items around it; key: of the value that is there, null where a key is;
-//   given: the values of the keys of the same table before it, as they stand there; from: where the word or the text in quotes
-//   begins; word; quote: the kind of the quotes around it, or ''; isHeader }
+// Returns { path, key, given, from, word, quote, isHeader }. `path`: names of the enclosing tables and indices of the enclosing items.
+// `key`: the key of the value at the position; null at a key. `given`: the values before the position in the same table, as written.
+// `from`: the begin of the word or of the quoted text. `quote`: the kind of quotes around the position, or ''.
 export function placeIn(text, position) {
   const frames = [{ path: [], given: new Map(), isArray: false }];
   let key = null; // before the value that is being read

@@ -1,11 +1,11 @@
-// The text of a netlist as a tree of tables and values that know where they stand, and changes of single places in it. All else of the
-// text stays as it is, comments and blanks included. A change is a list of { from, to, insert }, as CodeMirror takes it.
+// The text of a netlist as a tree of tables and values with their positions, and changes of single places in the text. The rest of the text
+// is kept, including comments and blanks. A change is a list of { from, to, insert }, as in CodeMirror.
 import { parseTOML } from 'toml-eslint-parser';
 
 const isBare = (name) => /^[A-Za-z0-9_-]+$/.test(name);
 export const keyOf = (name) => (isBare(name) ? name : JSON.stringify(name));
 
-// A value as TOML: a number or a boolean as such, all else in quotes.
+// A value as TOML: a number unquoted, any other text in quotes.
 export const valueOf = (text) => (/^[+-]?(\d+\.?\d*|\d*\.\d+)(e[+-]?\d+)?$/i.test(text) && !/^[+-]?(0\d|\.|\d+\.(e|$))/i.test(text) ? text : JSON.stringify(text));
 
 // A table, an array or a single value.
@@ -17,7 +17,7 @@ class Value {
     this.items = []; // of an array
   }
 
-  // What stands there: a text, a number, a boolean.
+  // The value: a text, a number or a boolean.
   get plain() {
     return this.kind === 'value' ? this.node.value : undefined;
   }

@@ -1,4 +1,4 @@
-// What a netlist says of its network: elements, nodes, and all places that refer to them by name.
+// The network in the text of a netlist: elements, nodes, and all references to them by name.
 import { t } from './messages.js';
 import { NetlistText, keyOf, valueOf } from './netlist-text.js';
 
@@ -45,7 +45,7 @@ export class NetworkText extends NetlistText {
     return this.elementNames.filter((name) => this.portsOf(name).some((port) => port.node === node));
   }
 
-  // Parameters of an element that its entry gives, as they stand there.
+  // Parameters in the entry of an element, as written.
   givenOf(name) {
     return [...(this.element(name)?.entries.values() ?? [])].filter((entry) => !inWiring.has(entry.name));
   }
@@ -67,7 +67,7 @@ export class NetworkText extends NetlistText {
     }
   }
 
-  // Why a name cannot be given to what is called `old`; empty if it can.
+  // Why the element or node `old` cannot be renamed to a name; empty if it can.
   faultOfName(name, old, isNode) {
     if (!name) return t('A name is missing.');
     if (!/^[A-Za-z0-9_-]+$/.test(name)) return t('A name is made of letters, digits, _ and -.');
@@ -159,7 +159,7 @@ export class NetworkText extends NetlistText {
     return changes;
   }
 
-  // Takes an element away, and all that is recorded, claimed or given of it and of nodes that nothing else names.
+  // Removes an element, its nodes that no other element names, and all records, claims and start values of these.
   removeElement(name) {
     const orphans = this.portsOf(name).map(({ node }) => node).filter((node) => node !== 'ground' && this.elementsAt(node).every((other) => other === name));
     const isGone = (path) => {

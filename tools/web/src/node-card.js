@@ -1,4 +1,4 @@
-// The card of a node: its name, where it starts, what is at it, and what can be added there.
+// The card of a node: name, start values, connected elements, and elements to add.
 import { element } from './dom.js';
 import { choiceField, readable, valueField } from './fields.js';
 import { t } from './messages.js';

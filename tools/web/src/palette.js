@@ -44,7 +44,7 @@ export class Palette {
   }
 
   drag(begin, type, symbol) {
-    begin.preventDefault(); // no text is selected on the way
+    begin.preventDefault(); // Do not select text while dragging.
     begin.target.closest('button').focus();
     const move = ({ clientX, clientY }) => {
       if (!this.dragged && Math.hypot(clientX - begin.clientX, clientY - begin.clientY) < 6) return;
@@ -57,7 +57,7 @@ export class Palette {
       removeEventListener('pointermove', move);
       this.ghost.hidden = true;
       if (!this.dragged) return;
-      setTimeout(() => (this.dragged = false)); // the click that may follow is none
+      setTimeout(() => (this.dragged = false)); // Ignore the click that may follow.
       this.ondrop(type, clientX, clientY);
     };
     addEventListener('pointermove', move);

@@ -31,7 +31,7 @@ import { Traces } from './traces.js';
 import { runTime } from './units.js';
 
 const isEmbedded = new URLSearchParams(location.search).has('embed');
-const typing = 250; // ms without a key after which what was typed is run
+const typing = 250; // Pause in typing after which the text is simulated [ms].
 
 class Playground {
   constructor(host) {
@@ -135,7 +135,7 @@ class Playground {
     this.plots.fit();
   }
 
-  // Part of a page of somebody else: of the tools only a way to the whole playground remains.
+  // Embedded in a foreign page: shows only a link to the whole playground in place of the tools.
   embed(bar) {
     document.body.classList.add('embedded');
     const link = element('a', { target: '_blank' }, t('Open in the playground'));
@@ -145,7 +145,7 @@ class Playground {
     bar.append(link);
   }
 
-  // Puts other scenes, one or two to compare, in the place of those that are there.
+  // Replaces all scenes by one scene, or by two to compare.
   begin({ scenes, active = scenes.length - 1, plots = {}, lesson = false }, notice = '') {
     this.endComparison();
     this.course.end();
@@ -180,7 +180,7 @@ class Playground {
     variant.runner.run(text, file);
   }
 
-  // Nothing of a scene before is left to be moved, or to be taken for this one.
+  // Clears everything that belongs to the scene before.
   clear() {
     this.sliders.clear();
     this.parts.drawing.replaceChildren();
@@ -218,7 +218,7 @@ class Playground {
     if (complete) variant.answered = text;
     this.showBusy();
     if (complete && isCurrent && data.mistakes.length === 1 && this.drawing.isEmpty) {
-      // That there are no elements is no mistake of a scene that has just been begun.
+      // A new scene without elements is not a mistake.
       this.showMistakes({ mistakes: [] }, text === variant.text);
       this.parts.plots.hidden = true;
       this.say(t('Nothing to run yet: choose an element, then click where its ends go.'));
@@ -243,7 +243,7 @@ class Playground {
     clearTimeout(this.later);
     this.later = setTimeout(() => this.showSections(), 200);
     if (data.failed) {
-      // Where there are no curves the reason stands in their place.
+      // Without curves the reason is shown in their place.
       this.say(data.hasCurves ? t('The run did not come to its end: {why}', { why: data.failed.message }) : t('The run did not come to its end.'), true);
       return;
     }
@@ -320,7 +320,7 @@ class Playground {
     this.plots.show([...now, ...this.traces.all]);
   }
 
-  // Until all that is seen has come of the texts as they are.
+  // Shows the page as busy until everything visible belongs to the current texts.
   showBusy() {
     this.parts.plots.setAttribute('aria-busy', String(this.variants.some(({ text, answered }) => text !== answered)));
   }
@@ -366,7 +366,7 @@ class Playground {
 
   endComparison() {
     if (this.variants.length > 1) {
-      // What was edited last stays.
+      // Keep the variant that was edited last.
       const kept = this.variants[this.active];
       kept.label = 'A';
       this.variants = [kept];

@@ -1,4 +1,4 @@
-// The plots of one or several runs: over time, or one quantity against another, with a choice of what is shown.
+// The plots of one or several runs, over time or of one quantity against another, with a choice of records.
 import { colourInPrint, dashes } from './chart.js';
 import { element, freshId } from './dom.js';
 import { LoopChart } from './loop-chart.js';
@@ -14,8 +14,8 @@ const kinds = [
   { id: 'flow', label: t('Force against velocity'), x: 'velocity', y: 'force' },
   { id: 'phase', label: t('Phase plane'), x: 'position', y: 'velocity' },
 ];
-const leastHeight = 125; // px of a chart that is to be read
-const few = { curves: 4, panels: 3, all: 8 }; // that are shown before anyone chooses: of one quantity, panels, and curves in all
+const leastHeight = 125; // Smallest legible chart [px].
+const few = { curves: 4, panels: 3, all: 8 }; // Default limits: curves of one quantity, panels, curves in all.
 
 const sentence = (text) => `${text[0]?.toUpperCase() ?? ''}${text.slice(1)}${/[.!?]$/.test(text) ? '' : '.'}`;
 
@@ -114,7 +114,7 @@ export class PlotPanel {
     this.onchange();
   }
 
-  // What somebody chose, to be kept in a link.
+  // The user's choices, for a link.
   get state() {
     return { kind: this.kind, owner: this.owner, chosen: this.chosen && [...this.chosen] };
   }
@@ -124,7 +124,7 @@ export class PlotPanel {
     this.chosen = chosen ? new Set(chosen) : null;
   }
 
-  // What the scene wants drawn against something else than time.
+  // The curves of [plot] that are not over time.
   ownCurves() {
     const curves = this.runs[0]?.data.scene.plot?.curves ?? [];
     return curves.filter(([x]) => x !== 'time');
@@ -337,7 +337,7 @@ export class PlotPanel {
     this.charts.push(new LoopChart(host, { x: side(kind.x), y: side(kind.y), curves: this.loopCurves(kind) }));
   }
 
-  // What is drawn, in the order of the runs, as it is to be drawn elsewhere: in the colours, dashes and units that are on the screen.
+  // The visible curves in the order of the runs, with the colours, dashes and units on the screen, for export.
   drawnCurves() {
     const ofRuns = this.runs.map(() => []);
     this.charts.forEach((chart, panel) => {
@@ -348,7 +348,7 @@ export class PlotPanel {
     return ofRuns;
   }
 
-  // Shows where everything is at a time.
+  // Marks a time in all charts.
   mark(time) {
     for (const chart of this.charts) chart.mark(time, chart.curves.map((curve) => curve.data?.at(time) ?? 0));
   }

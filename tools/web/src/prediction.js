@@ -1,4 +1,4 @@
-// What a student expects of a run before it is shown: one of several curves, or a curve that is sketched.
+// A student's prediction of a run: the choice of one of several curves, or a sketched curve.
 import { element, freshId } from './dom.js';
 import { t } from './messages.js';
 import { richText } from './rich-text.js';
@@ -54,7 +54,7 @@ class Choice {
     this.inputs.forEach((input) => (input.disabled = true));
   }
 
-  // What is said of it beside the run.
+  // The comment on the choice, next to the run.
   verdict() {
     const { right, reply } = this.curve;
     return [element('p', { class: right ? 'holds' : 'fails' }, right ? t('That is what happens.') : t('That is not what happens.')), element('p', {}, richText(reply))];

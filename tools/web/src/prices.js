@@ -1,4 +1,4 @@
-// What accuracy costs: the error of runs over their work.
+// Price of accuracy: the work of runs over their error.
 import { breakable, element, table } from './dom.js';
 import { LoopChart } from './loop-chart.js';
 import { t } from './messages.js';
@@ -13,7 +13,7 @@ const errorText = ({ error, doubt }) => (error > 2 * doubt || error === 0 ? erro
 const methodNames = { ida: t('step by step (IDA)'), exact: t('exact arcs') };
 const nameOf = (method) => methodNames[method] ?? method;
 
-// A chart of all prices over their errors. `cost`: what is drawn upwards, of a price.
+// A chart of all prices over their errors. `cost(price)`: the ordinate.
 export function priceChart(host, prices, quantity, unit, cost) {
   const methods = [...new Set(prices.map(({ method }) => method))];
   return new LoopChart(host, {

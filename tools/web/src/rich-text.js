@@ -1,4 +1,4 @@
-// Texts with formulas: what stands between dollar signs is set by KaTeX, what stands between backticks as code.
+// Texts with formulas: KaTeX sets text between dollar signs; text between backticks is set as code.
 import katex from 'katex';
 import 'katex/dist/katex.min.css';
 import { element } from './dom.js';

@@ -1,4 +1,4 @@
-// The card of the run: title, length, rows, and what is recorded.
+// The card of the run: title, length, rows and records.
 import { element } from './dom.js';
 import { choiceField, readable, valueField } from './fields.js';
 import { t } from './messages.js';

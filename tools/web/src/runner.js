@@ -1,14 +1,13 @@
-// Runs the newest text: one run is on its way at a time, what comes in between is left out, and a run that takes long
-// gives way to a newer one.
+// Simulates the newest text. There is one run at a time; intermediate texts are skipped, and a long run is cancelled for a newer text.
 import { task } from './api.js';
 import { SceneData } from './scene-data.js';
 
-const patience = 150; // ms that a run has before a newer one ends it
-const partly = 250; // ms after which what has come is shown before all has
+const patience = 150; // Time of a run before a newer text may cancel it [ms].
+const partly = 250; // Time after which a partial result is shown [ms].
 
 export class Runner {
-  // ondata(data, { text, complete, took }): what has come.
-  // onscene(data, text): the scene has been read; its run is on its way.
+  // ondata(data, { text, complete, took }): the result so far.
+  // onscene(data, text): the scene has been read, and its run has started.
   constructor(session, ondata, onscene) {
     this.session = session;
     this.ondata = ondata;

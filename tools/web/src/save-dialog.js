@@ -1,4 +1,4 @@
-// Saves a netlist in the folder, and asks before another one would be lost.
+// Saves a netlist in the folder, and asks before it replaces another one.
 import { save } from './api.js';
 import { element } from './dom.js';
 import { t } from './messages.js';
@@ -41,7 +41,7 @@ export class SaveDialog {
     this.tell('');
   }
 
-  // What is typed without an ending is the name of a netlist.
+  // The typed name; .toml is added to a name without an ending.
   get file() {
     const name = this.name.value.trim();
     return name && !/\.[^/]*$/.test(name) && !name.endsWith('/') ? `${name}.toml` : name;
@@ -63,7 +63,7 @@ export class SaveDialog {
     }
   }
 
-  // Why it is not saved; `there` is the version of what would be lost.
+  // Shows why the netlist is not saved; `there` is the version of the file that would be replaced.
   tell(why, there = '') {
     this.there = there;
     this.over.hidden = !there;

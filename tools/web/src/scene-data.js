@@ -1,4 +1,4 @@
-// What a scene is and what its run gave, gathered from the messages that tools/report/messages.hpp lists.
+// A scene and its run, collected from the messages in tools/report/messages.hpp.
 
 export class SceneData {
   constructor() {
@@ -47,12 +47,12 @@ export class SceneData {
     return this.scene?.records ?? [];
   }
 
-  // The run has got beyond its start.
+  // Whether there are rows beyond the start.
   get hasCurves() {
     return this.time.length > 1 && this.time.at(-1) > this.time[0];
   }
 
-  // Of a run that was cut short nobody knows where its energy went.
+  // Whether there is an energy account; a run that was cut short has none.
   get hasEnergy() {
     return Boolean(this.energy) && this.energy.time.length > 1;
   }

@@ -1,4 +1,4 @@
-// What the JSON Schema of netlists says of a place: https://json-schema.org/draft/2020-12
+// The part of the JSON Schema of netlists for a place in a netlist: https://json-schema.org/draft/2020-12
 export class SchemaPath {
   constructor(schema) {
     this.schema = schema;
@@ -35,7 +35,7 @@ export class SchemaPath {
     const schemas = this.at(path, given);
     for (const { properties } of schemas)
       for (const [name, schema] of Object.entries(properties ?? {})) if (schema && !keys.get(name)) keys.set(name, this.describe(schema, given));
-    // What one of them excludes is no key, whatever the others say.
+    // A key that one schema excludes is invalid, even if others allow it.
     for (const { properties, additionalProperties: others } of schemas)
       for (const name of keys.keys()) if (properties?.[name] === false || (others === false && !properties[name] && given.has('type'))) keys.delete(name);
     return keys;

@@ -7,10 +7,10 @@ import { priceChart } from './prices.js';
 import { TimeChart, TimeGroup } from './time-chart.js';
 import { grouped, number, runTime, spaced, timeShown, withUnit } from './units.js';
 
-// A text with its units and formulas as in print, and what stands between backticks set as code.
+// A text with typeset units and formulas; text between backticks is set as code.
 export const inWords = (text) => text.split(/(`[^`]*`)/).flatMap((part, k) => (k % 2 ? [element('code', {}, part.slice(1, -1))] : typeset(part)));
 
-// What a scene is to teach; `folded`: what can be seen and why is first to be thought about.
+// The lesson of a scene's [demo]; `folded`: observation and explanation are folded, for the reader to think first.
 export function lessonOf({ demo }, folded) {
   if (!demo) return null;
   const answer = (name, text) => (folded ? element('details', {}, element('summary', {}, name), element('p', {}, inWords(text))) : element('p', {}, element('b', {}, `${name} `), inWords(text)));
@@ -21,7 +21,7 @@ export function lessonOf({ demo }, folded) {
     answer(t('Why'), demo.why));
 }
 
-// What `rheonet explain` says; names and options in it are set as such.
+// The text of `rheonet explain`, with names and options set as code.
 export function explanationOf({ passages, why_not: whyNot }) {
   if (whyNot) return element('p', { class: 'note bad' }, t('It cannot be simulated: {why}', { why: whyNot }));
   return element('div', { class: 'explanation' }, passages.map(({ heading, lines }) =>

@@ -1,4 +1,4 @@
-// A slider for each number of a netlist. What is moved is written into the text of the netlist, which is all there is.
+// A slider for each number of a netlist. A moved slider changes the number in the text of the netlist; there is no other state.
 import { breakable, element } from './dom.js';
 import { typeset } from './formulas.js';
 import { t } from './messages.js';
@@ -20,7 +20,7 @@ class Slider {
     this.number = element('input', { type: 'text', inputmode: 'decimal', 'aria-label': t('{name}, value', { name: label }), size: '6' });
     this.range.addEventListener('input', () => this.slide(this.valueAt(Number(this.range.value))));
     this.range.addEventListener('pointerdown', () => (panel.held = this));
-    // What is not moved while it is held does not change.
+    // The range of a held slider is not adjusted.
     for (const end of ['change', 'pointerup', 'pointercancel', 'blur']) this.range.addEventListener(end, () => (panel.held = null));
     this.why = element('output', { class: 'why', hidden: true });
     this.number.addEventListener('change', () => this.take(this.number.value.trim()));
@@ -44,7 +44,7 @@ class Slider {
     return `${this.knob.group}.${this.knob.name}`;
   }
 
-  // What is typed is the number alone: a unit or a comma that was left out in silence would make it another one.
+  // Takes a typed number. Any other text is refused: silently ignoring a unit or a comma would change the value.
   take(text) {
     const value = decimal.test(text) ? Number(text) : NaN;
     if (Number.isFinite(value)) {

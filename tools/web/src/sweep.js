@@ -5,8 +5,8 @@ import { LoopChart } from './loop-chart.js';
 import { t } from './messages.js';
 import { number } from './units.js';
 
-// What is measured: `texts(record, third, other)` are measures as `rheonet sweep --measure` names them, `of` makes a number of their values. What
-// needs another record measures the difference of the two, which the netlist then records.
+// The measures: `texts(record, third, other)` returns measures for `rheonet sweep --measure`, and `of` computes a number from their values. A
+// measure that compares two records uses their difference, which is added to the records of the netlist.
 const difference = 'difference_of_two';
 const measures = {
   magnitude: { label: t('largest magnitude'), texts: (record) => [`max(${record})`, `min(${record})`], of: ([high, low]) => Math.max(Math.abs(high), Math.abs(low)) },
@@ -108,7 +108,7 @@ export class SweepPanel {
     return this.scene.records.find((record) => record.path === path)?.path;
   }
 
-  // The values of the number, as they stand in a netlist; throws what is wrong with the fields.
+  // The values of the number as texts for a netlist; throws an error if a field is invalid.
   values() {
     const { knob, chosen } = this;
     const read = (text) => {

@@ -2,8 +2,8 @@
 // their rails, and the plates of a stop touch when the stop does. Coordinates move, so that lines keep their width.
 
 const axes = { M: 'xy', L: 'xy', H: 'x', V: 'y', Q: 'xyxy', C: 'xyxyxy', A: '.....xy', Z: '' };
-const near = 1; // px within which two lines of a symbol are taken for joined
-const margin = 3; // px that a rail or a cylinder reaches beyond what is in it
+const near = 1; // Largest distance of two lines of a symbol that count as joined [px].
+const margin = 3; // Overhang of a rail or a cylinder beyond the body in it [px].
 
 // The parts of a path that are joined within: lists of { command, numbers }, with L in place of H and V.
 function subpaths(path) {
@@ -74,8 +74,8 @@ function through(stops) {
   };
 }
 
-// What slides stays between its ends, and its rail or cylinder reaches as far as it does. The part that slides is that of the left
-// node here.
+// Maps of a sliding body and of its rail or cylinder. The body stays between its ends, and the rail or cylinder is extended to it. Here the
+// body belongs to the left node.
 function slidingMaps({ low, high, body: [b0, b1], around: [c0, c1] }, dl, dr) {
   const slid = Math.min(dl, Math.max(high + dr - margin - b1, low + dl - b0));
   return {
@@ -116,7 +116,7 @@ export class SymbolMotion {
     const of = (side) => this.pieces.filter((piece) => piece.side === side);
     const bodies = ['left', 'right'].map((side) => extent(of(side).filter(({ atLeft, atRight }) => !atLeft && !atRight)));
     const rims = ['left', 'right'].map((side) => extent(of(side)));
-    // What is narrower slides in or on the other one.
+    // The narrower part slides in or on the other one.
     const inner = !bodies[1] || (bodies[0] && rims[0][1] - bodies[0][0] <= rims[1][1] - rims[1][0]) ? 0 : 1;
     if (bodies[inner] && rims[1 - inner]) Object.assign(this, { body: bodies[inner], around: rims[1 - inner], isMirrored: inner === 1 });
     if (this.body && (this.body[1] <= this.around[0] || this.around[1] <= this.body[0])) this.body = null;

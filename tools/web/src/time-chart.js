@@ -119,7 +119,7 @@ export class TimeChart extends Chart {
     if (!whole) this.plot.redraw();
   }
 
-  // What is seen: the times, and the values in SI.
+  // Stores the visible range of times, and of values in SI.
   tellRanges({ scales: { x, y } }) {
     this.host.dataset.span = `${x.min} ${x.max}`;
     this.host.dataset.range = `${y.min * this.shown.factor} ${y.max * this.shown.factor}`;
@@ -172,7 +172,7 @@ export class TimeChart extends Chart {
     return !this.full();
   }
 
-  // As far as there is something to see.
+  // Shows a range, limited to the curves.
   lookAt({ x: [min, max] }) {
     const [start, stop] = this.span;
     const span = Math.min(max - min, stop - start);

@@ -15,7 +15,7 @@ export class Traces {
     this.controls = element('span', { class: 'traces' }, this.freezeButton, this.clearButton);
   }
 
-  // What would be kept: of a variant its data and text; `first`: the numbers that the scene had when it was opened.
+  // Sets the run that would be kept: data and text of a variant. `first`: the numbers of the scene when it was opened.
   offer(variant) {
     this.offered = variant.data.hasCurves ? { data: variant.data, text: variant.shown ?? variant.text, file: variant.file, first: variant.first ?? [] } : null;
     this.freezeButton.disabled = !this.offered || this.all.length >= most || this.all.some(({ data }) => data === this.offered.data);

@@ -1,7 +1,7 @@
-// What turns in a schematic: marks run round the rotors, gears have spokes, and other shafts a dial.
+// Rotation in a schematic: marks run around the rotors, gears have spokes, and other shafts have a dial.
 
 const vector = 'http://www.w3.org/2000/svg';
-const marks = 3; // round a rotor
+const marks = 3; // Number of marks on a rotor.
 const dial = 5.5; // px, radius
 
 function drawn(host, name, attributes) {

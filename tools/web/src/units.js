@@ -16,7 +16,7 @@ export function shownIn(unit, largest) {
   const plain = { name: inPrint(unit), factor: 1 };
   if (!(largest > 0) || !Number.isFinite(largest) || !/^(m|N|s|J|W|rad)([*/]|$)/.test(unit)) return plain;
   if (largest >= 0.1 && largest < 1e4) return plain;
-  // What would be printed as 1000 of a unit is 1 of the next.
+  // A value that would be printed as 1000 of a unit gets the next prefix.
   const power = Math.min(9, Math.max(-15, 3 * Math.floor(Math.log10(largest * 1.0001) / 3)));
   if (power > 0 && /^(m|s|rad)/.test(unit)) return plain;
   return { name: prefixes[power] + plain.name, factor: 10 ** power };
