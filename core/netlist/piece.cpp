@@ -13,6 +13,11 @@ namespace rheonet {
 
 namespace {
 
+// An angle is known to its last digit. A sine or a cosine that is no more than this is 0: a cosine begins at rest.
+double exact_at_zero(double value, double angle) { return std::abs(value) <= std::numeric_limits<double>::epsilon() * std::abs(angle) ? 0 : value; }
+double sine(double angle) { return exact_at_zero(std::sin(angle), angle); }
+double cosine(double angle) { return exact_at_zero(std::cos(angle), angle); }
+
 double sinc(double x) { return std::abs(x) < 1e-4 ? 1 - x * x / 6 : std::sin(x) / x; }
 
 /// (x - sin x)/x^2; by its series where the difference would lose digits.
@@ -51,7 +56,7 @@ double Piece::integral(double from, double to) const {
 double Piece::function(double t) const {
   if (curve) return curve->value(t);
   const double tau = t - origin;
-  const double wave = amplitude == 0 ? 0 : amplitude * std::sin(phase + (omega + chirp * tau / 2) * tau);
+  const double wave = amplitude == 0 ? 0 : amplitude * sine(phase + (omega + chirp * tau / 2) * tau);
   return level + slope * tau + wave;
 }
 
@@ -59,7 +64,7 @@ double Piece::slope_at(double t) const {
   if (curve) return curve->rate(t);
   if (amplitude == 0) return slope;
   const double tau = t - origin;
-  return slope + amplitude * (omega + chirp * tau) * std::cos(phase + (omega + chirp * tau / 2) * tau);
+  return slope + amplitude * (omega + chirp * tau) * cosine(phase + (omega + chirp * tau / 2) * tau);
 }
 
 double Piece::curvature(double t) const {
@@ -69,7 +74,7 @@ double Piece::curvature(double t) const {
   const double tau = t - origin;
   const double angle = phase + (omega + chirp * tau / 2) * tau;
   const double angle_rate = omega + chirp * tau;
-  return amplitude * (chirp * std::cos(angle) - angle_rate * angle_rate * std::sin(angle));
+  return amplitude * (chirp * cosine(angle) - angle_rate * angle_rate * sine(angle));
 }
 
 double Piece::area(double from, double to) const {

@@ -134,6 +134,8 @@ std::pair<double, double> RunTimeExpression::margin_of(const Step& step, double 
 void RunTimeExpression::run(Workspace& work, bool with_slopes, std::span<const double> given, std::span<double> chosen, std::span<double> functions) const {
   using Kind = Step::Kind;
   double* const x = work.slots.data();
+  // Up to its event an `abs` keeps its side, and is a little below 0 then. Powers and roots of it go on as odd functions.
+  bool past_switch = false;
   for (std::uint32_t k = 0; k < steps_.size(); ++k) {
     const Step& step = steps_[k];
     const double a = x[step.left], b = x[step.right];
@@ -171,14 +173,25 @@ void RunTimeExpression::run(Workspace& work, bool with_slopes, std::span<const d
         break;
       case Kind::power:
         value = std::pow(a, b);
+        if (past_switch && a < 0 && std::isnan(value)) {
+          value = -std::pow(-a, b);
+          of_left = b * std::pow(-a, b - 1);
+        } else if (with_slopes) {
+          of_left = b == 0 ? 0 : b * std::pow(a, b - 1);
+        }
         if (!with_slopes) break;
-        of_left = b == 0 ? 0 : b * std::pow(a, b - 1);
-        of_right = step.constant_exponent || value == 0 ? 0 : value * std::log(a);
+        of_right = step.constant_exponent || value == 0 ? 0 : value * std::log(std::abs(a));
         break;
       case Kind::call: {
         const double both[] = {a, b};
         const std::span arguments(both, step.arguments);
         value = step.function->value(arguments);
+        if (past_switch && step.arguments == 1 && a < 0 && std::isnan(value)) {
+          const double other = -a;
+          value = -step.function->value(std::span(&other, 1));
+          if (with_slopes) of_left = step.function->slope(std::span(&other, 1), 0);
+          break;
+        }
         if (!with_slopes) break;
         of_left = step.function->slope(arguments, 0);
         if (step.arguments > 1) of_right = step.function->slope(arguments, 1);
@@ -212,6 +225,7 @@ void RunTimeExpression::run(Workspace& work, bool with_slopes, std::span<const d
             break;
           case Kind::abs:
             value = side * a, of_left = side;
+            past_switch = past_switch || value < 0;
             break;
           case Kind::min:
           case Kind::max:

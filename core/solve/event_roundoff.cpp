@@ -114,8 +114,7 @@ Tolerances::Loads Tolerances::find_loads(const Dae::View& view) const {
 void Tolerances::find_rounding(const Dae::View& view) {
   constexpr double eps = numerics::balanced_force_ulps * std::numeric_limits<double>::epsilon();
   const Structure& structure = dae_->structure();
-  Loads loads = find_loads(view);
-  for (std::size_t part = 0; part < loads.speed.size(); ++part) loads.speed[part] = std::max(loads.speed[part], speed_for_rounding_[part]);
+  const Loads loads = find_loads(view);
   const auto known = [&](NodeId node) { return structure.kind[at(node)] == Kind::known; };
   const double time = network_.scene->stop - network_.scene->start;
   const auto mobility = [&](NodeId node) { return known(node) ? 0 : time * time / structure.inertia[at(node)]; };  // m/N
@@ -124,7 +123,6 @@ void Tolerances::find_rounding(const Dae::View& view) {
   for (std::size_t i = 0; i < quantity_.size(); ++i) {
     const auto [sort, k] = quantity_[i];
     rounding_[i] = 0;
-    const double drifted = numerics::rounding_speed_kept * drift_[i].velocity;
     drift_[i] = {};
     if (sort == Sort::velocity) {
       const double m = structure.inertia[k], impedance = std::sqrt(m * loads.stiffness[k]) + loads.damping[k];
@@ -141,7 +139,7 @@ void Tolerances::find_rounding(const Dae::View& view) {
       const bool in_balance = structure.group[at(b.a)] >= 0 || structure.group[at(b.b)] >= 0;
       const double share = in_balance ? numerics::restart_balance_terms * numerics::equation_roundoff : eps;
       if (df != 0) rounding_[i] += share * (alone ? f : settled(slope * (mobility(b.a) + mobility(b.b))) * loads.force[part]) / slope;
-      drift_[i] = {alone ? std::max(eps * speed_at(view, b), drifted) : eps * loads.speed[part], dc != 0 ? 1 / dc : std::numeric_limits<double>::infinity()};
+      drift_[i] = {eps * (alone ? speed_at(view, b) : loads.speed[part]), dc != 0 ? 1 / dc : std::numeric_limits<double>::infinity()};
     } else if (sort == Sort::force) {
       rounding_[i] = eps * loads.force[at(part_of(structure.rates[k]))];
     }
@@ -166,18 +164,23 @@ void Tolerances::find_rounding(const Dae::View& view) {
   force_rounding_.assign(structure.kind.size(), 0);
   find_force_rounding(view);
   find_rounding_now(view);
-  speed_for_rounding_ = loads.speed;
-  drift_dominates_ = false;
 }
 
 /// After a restart at which something moved fast for a moment, as where a force steps at a thin dashpot, the round-off of those velocities would go on adding up
-/// for the rest of the run. Where that decides a tolerance, it is found anew, each time when the time since the restart has doubled.
-void Tolerances::find_rounding_again(double t, const Dae::View& view) {
-  if (!drift_dominates_ || t - restarted_ < 2 * (rounded_ - restarted_)) return;
-  rounded_ = t;
-  // A motion may just turn round: its speed is not forgotten at once.
-  for (double& speed : speed_for_rounding_) speed *= numerics::rounding_speed_kept;
-  find_rounding(view);
+/// in deflections for the rest of the run. Where that decides a tolerance, it is found anew, each time when the time since the restart has doubled.
+void Tolerances::find_drift_again(double t, const Dae::View& view) {
+  if (!drift_dominates_ || t - restarted_ < 2 * (drift_found_ - restarted_)) return;
+  drift_found_ = t;
+  drift_dominates_ = false;
+  constexpr double eps = numerics::balanced_force_ulps * std::numeric_limits<double>::epsilon();
+  const Loads loads = find_loads(view);
+  for (std::size_t i = 0; i < quantity_.size(); ++i) {
+    if (quantity_[i].sort != Sort::deflection) continue;
+    const Branch& b = dae_->structure().deflections[quantity_[i].index];
+    const double speed = std::max(speed_at(view, b), loads.speed[at(part_of(b))]);
+    // A motion may just turn round: its speed is not forgotten at once.
+    drift_[i].velocity = std::min(drift_[i].velocity, std::max(eps * speed, numerics::drift_kept * drift_[i].velocity));
+  }
 }
 
 /// A block that turns a position into a force also amplifies the round-off of that position. A spring made of blocks between

@@ -205,9 +205,7 @@ void Tolerances::foresee(double t, double ahead, const std::vector<double>& y, c
   for (std::size_t i = 0; i < y.size(); ++i) size_[i] = std::max(std::abs(y[i]), ahead > 0 ? coming_size[i] : 0.0);
   find_slider_shares();
   if (!network_.blocks.blocks.empty()) block_gains_.follow(dae_->inputs().blocks());
-  speed_for_rounding_.assign(dae_->structure().kind.size(), 0);
-  std::fill(drift_.begin(), drift_.end(), Drift{});
-  rounded_ = t;
+  drift_found_ = t;
   find_rounding(view);
   find_difference_rounding(view);
   find_stopping(view);
@@ -236,7 +234,7 @@ void Tolerances::follow(double t, const std::vector<double>& y, const std::vecto
   }
   step_ = t - reached_;
   reached_ = t;
-  find_rounding_again(t, view);
+  find_drift_again(t, view);
   find_dashpot_rounding(view);
   if (dae_->rough()) {
     find_force_rounding(view);
@@ -355,7 +353,7 @@ void Tolerances::bear_noise(std::size_t i, double t, double jitter, double large
   const double drifted = drift.velocity * std::min(adds_up, drift.lasting);
   if (drifted > tolerance) {
     tolerance = drifted;
-    drift_dominates_ = true;
+    drift_dominates_ = drift_dominates_ || q.sort == Sort::deflection;
   }
   // A displacement has the error of its velocity over the time for which scales are foreseen.
   if (q.sort == Sort::deflection || q.sort == Sort::position) tolerance = std::max(tolerance, relative_ * largest_velocity * ahead_);

@@ -115,7 +115,7 @@ class Tolerances {
   struct Loads;
   Loads find_loads(const Dae::View& view) const;
   void find_rounding(const Dae::View& view);
-  void find_rounding_again(double t, const Dae::View& view);
+  void find_drift_again(double t, const Dae::View& view);
   void find_block_rounding();
   int part_of(const Branch& b) const;
   void loosen_positions();
@@ -199,9 +199,8 @@ class Tolerances {
   /// Round-off of a velocity [m/s], and how long it accumulates in the quantity that integrates it [s].
   struct Drift { double velocity = 0, lasting = std::numeric_limits<double>::infinity(); };
   std::vector<Drift> drift_;                          ///< For each unknown that integrates a velocity.
-  bool drift_dominates_ = false;                      ///< The accumulated round-off of a velocity decides some tolerance.
-  std::vector<double> speed_for_rounding_;            ///< For each part: largest speed that its round-off is found with [m/s].
-  double rounded_ = 0;                                ///< Time at which it was found last [s].
+  bool drift_dominates_ = false;                      ///< The accumulated round-off of a velocity decides the tolerance of some deflection.
+  double drift_found_ = 0;                            ///< Time at which it was found last [s].
   // For each part: round-off of its forces near rest [N], and of its velocities [m/s].
   std::vector<double> force_rounding_;
   std::vector<double> plain_rounding_;    ///< Without dilatant laws.

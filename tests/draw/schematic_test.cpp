@@ -241,7 +241,7 @@ TEST_CASE("what is not series-parallel is drawn between bars, crossing wires hop
   const Picture picture = drawn(scene);
   CHECK(faults_of(picture, scene) == "");
   std::size_t hops = 0;
-  for (const SignalConnection& wire : picture.wires) hops += wire.hops.size();
+  for (const Wire& wire : picture.wires) hops += wire.hops.size();
   CHECK(hops >=
         1);  // the complete graph of five is not planar; one crossing would do, were its nodes free to go anywhere
   CHECK(hops <= 2);

@@ -16,6 +16,7 @@ const Declaration spring{
                    {.name = "f0", .quantity = Quantity::force, .kind = Kind::initial, .lower = -infinity}}};
 
 const Declaration dashpot{.type = "dashpot",
+                          .other_names = {"damper"},
                           .parameters = {{.name = "damping", .quantity = Quantity::damping, .flow_index = "flow_index"},
                                          {.name = "flow_index", .fallback = 1.0, .lower_open = false, .upper = 4}}};
 

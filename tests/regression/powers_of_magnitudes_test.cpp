@@ -1,0 +1,68 @@
+// Up to the event at which its argument changes sign, the magnitude of a small value is a little below 0: a power of it goes on.
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+
+#include "core/network/error.hpp"
+#include "tests/support/simulate.hpp"
+
+namespace rheonet::test {
+
+namespace {
+
+constexpr double m = 2, k = 1000, alpha = 0.1, D = 1e-3, F = 8, f = 1.3;
+
+using State = std::array<double, 3>;  // x, v, z
+
+/// Bouc-Wen's hysteresis on a mass, beta = gamma = 1/2.
+State rates(double t, const State& s, double n) {
+  const auto [x, v, z] = s;
+  const double u = std::pow(std::abs(z) / D, n);
+  const double bent = (0.5 * std::abs(v) * std::copysign(u, z) + 0.5 * v * u) * D;
+  return {v, (F * std::sin(2 * M_PI * f * t) - alpha * k * x - (1 - alpha) * k * z) / m, v - bent / D};
+}
+
+/// The displacement at the end, by Runge and Kutta's method with steps of a fixed length.
+double reference(double end, double n, int steps) {
+  State s{};
+  const double h = end / steps;
+  const auto ahead = [](const State& from, double by, const State& rate) { return State{from[0] + by * rate[0], from[1] + by * rate[1], from[2] + by * rate[2]}; };
+  for (int i = 0; i < steps; ++i) {
+    const double t = h * i;
+    const State a = rates(t, s, n), b = rates(t + h / 2, ahead(s, h / 2, a), n), c = rates(t + h / 2, ahead(s, h / 2, b), n), d = rates(t + h, ahead(s, h, c), n);
+    for (std::size_t j = 0; j < s.size(); ++j) s[j] += h / 6 * (a[j] + 2 * b[j] + 2 * c[j] + d[j]);
+  }
+  return s[0];
+}
+
+}  // namespace
+
+TEST_CASE("Bouc-Wen's law with a power between 1 and 3 passes the zeros of its state") {
+  for (const double n : {1.1, 1.5, 2.5}) {
+    CAPTURE(n);
+    const RunTable run = simulate(fmt::format(R"(include = ["library/friction.toml"]
+[elements]
+m = {{ type = "mass",  at = "x", mass = {} }}
+f = {{ type = "force", at = "x", force = {{ sine = {}, frequency = {} }} }}
+r = {{ type = "bouc-wen", between = ["x", "ground"], n = {} }}
+[simulate]
+stop = 3
+output = {{ points = 31 }}
+record = ["x.position"]
+)", m, F, f, n), 1e-7);
+    CHECK(std::abs(run["x.position"].back() - reference(3, n, 300'000)) <= 1e-5 * run.scale("x.position"));
+  }
+}
+
+TEST_CASE("a root of a magnitude passes its zero, and a root of what is negative is refused") {
+  const auto netlist = [](const std::string& root) {
+    return "[laws.rough]\nparameters = { k = \"100 N/m\", c = \"1 N*s^1.5/m^1.5\" }\nforce = \"k*d + c*" + root + "\"\n[elements]\nm = { type = \"mass\", at = \"a\", mass = 1 }\nr = { type = \"rough\", between = [\"a\", \"ground\"] }\n"
+           "f = { type = \"force\", at = \"a\", force = { sine = 2, frequency = 0.7 } }\n[simulate]\nstop = 4\noutput = { points = 5 }\n";
+  };
+  CHECK_NOTHROW(simulate(netlist("w*sqrt(abs(w))"), 1e-6));
+  CHECK_THROWS_WITH_AS(simulate(netlist("w*sqrt(w)"), 1e-6), doctest::Contains("has no finite value"), SimulationError);
+}
+
+}  // namespace rheonet::test
