@@ -89,7 +89,12 @@ test('a stick-slip oscillator is built from nothing by mouse alone, and runs', a
   await redrawn(page, () => ofNode(page, 'ground').click());
   // The force of breakaway is given, and raised until it is twice that of sliding.
   await card(page).getByText('More parameters').click();
-  await redrawn(page, () => card(page).getByRole('button', { name: 'Give breakaway' }).click());
+  const give = card(page).getByRole('button', { name: 'Give breakaway' });
+  await redrawn(page, async () => {
+    // A click is lost if the card is made anew just then.
+    do await give.click();
+    while (!(await give.waitFor({ state: 'hidden', timeout: 3000 }).then(() => true, () => false)));
+  });
   const range = field(page, 'breakaway Fs').locator('xpath=..').locator('input[type=range]');
   const box = await range.boundingBox();
   await redrawn(page, () => page.mouse.click(box.x + box.width * 0.66, box.y + box.height / 2));
