@@ -132,7 +132,7 @@ class ConvexNetwork {
   bool stick_where_idle();
   void merge();
   struct Sums {
-    std::vector<double> laws, all;  ///< Of forces at each column, without and with those of equations.
+    std::vector<double> laws, all;  ///< Sums of forces at each column, without and with the forces of equations.
   };
   bool balanced(Sums& sums) const;
   bool direction_of_descent(const std::vector<double>& sum_of_laws, std::vector<double>& d, bool secants);

@@ -26,8 +26,8 @@ enum class Domain { translation, rotation };
 
 /// The kind of quantity that a netlist value represents; its dimension depends on the domain.
 enum class Quantity {
-  number,     ///< dimensionless
-  time,       ///< s
+  number,     ///< Dimensionless.
+  time,       ///< [s].
   frequency,  ///< Hz (cycles a second); a unit with rad is an angular frequency and is divided by 2 pi.
   angle,      ///< rad in both domains (the phase of a signal).
   position,   ///< m | rad; displacements too.

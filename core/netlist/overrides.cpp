@@ -112,6 +112,16 @@ std::string path_to(const ActiveOverride& active) {
   return path;
 }
 
+/// Refuses a value in the place of a whole element, and names one of the values that the element has.
+void refuse_for_element(const TomlValue& element, const ActiveOverride& whole, DiagnosticList& diagnostics) {
+  constexpr std::string_view places[] = {"type", "name", "at", "between", "support", "domain", "in"};
+  const auto value = std::find_if_not(element.entries.begin(), element.entries.end(),
+                                      [&](const TomlEntry& e) { return std::find(std::begin(places), std::end(places), e.key) != std::end(places); });
+  const std::string path = path_to(whole);
+  diagnostics.error(whole.override->path.back().spot, "`" + path + "` is an element, which " + describe(whole.override->value) + " cannot replace",
+                    "name one of its values" + (value == element.entries.end() ? "" : ": `" + path + "." + value->key + "`"));
+}
+
 void apply(const ActiveOverride& active, TomlValue& table, DiagnosticList& diagnostics) {
   TomlValue* at = &table;
   for (ActiveOverride rest = active; !rest.at_end(); rest = rest.deeper()) {
@@ -137,17 +147,12 @@ void apply(const ActiveOverride& active, TomlValue& table, DiagnosticList& diagn
     }
     at = &entry->value;
   }
+  ActiveOverride whole = active;
+  while (!whole.at_end()) whole = whole.deeper();
   if (active.override->multiplies) {
-    ActiveOverride whole = active;
-    while (!whole.at_end()) whole = whole.deeper();
     multiply(*at, whole, diagnostics);
   } else if (at->is_table() && at->find("type") && !active.override->value.is_table()) {
-    const auto value = std::find_if(at->entries.begin(), at->entries.end(), [](const TomlEntry& e) {
-      return e.value.kind == TomlValue::Kind::number || (e.value.is_string() && e.key != "type" && e.key != "at" && e.key != "support");
-    });
-    const Override::Part& last = active.override->path.back();
-    diagnostics.error(last.spot, "`" + last.name + "` is an element, which " + describe(active.override->value) + " cannot replace",
-                      value == at->entries.end() ? "name one of its values" : "name one of its values: `" + last.name + "." + value->key + "`");
+    refuse_for_element(*at, whole, diagnostics);
   } else {
     *at = active.override->value;
   }

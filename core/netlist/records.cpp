@@ -111,9 +111,10 @@ void refuse(const Path& path, const SceneIndex::Found& found, bool sensed, Conte
                            "that of its node is `" + scene.nodes[static_cast<std::size_t>(node)].name + '.' + path.channel + '`');
     return;
   }
-  const std::vector<std::string> paths = known_paths(scene, true);
-  if (const std::string inner = path.object + '.' + path.channel; std::find(paths.begin(), paths.end(), inner) != paths.end()) {
-    context.diagnostics.error(spot, "`" + inner + "` is no record, but has some", "did you mean `" + inner + ".out`?");
+  const std::string part = path.object + '.' + path.channel;
+  if (const SceneIndex::Found inside = SceneIndex(scene, {part}).find(part); inside.any()) {
+    context.diagnostics.error(source.spot, "`" + part + "` does not say which quantity is meant",
+                              "did you mean `" + part + "." + channels_of(inside, sensed).front() + "`?");
     return;
   }
   const std::string meant = meant_channel(path.channel, known);

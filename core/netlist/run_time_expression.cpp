@@ -134,7 +134,8 @@ std::pair<double, double> RunTimeExpression::margin_of(const Step& step, double 
 void RunTimeExpression::run(Workspace& work, bool with_slopes, std::span<const double> given, std::span<double> chosen, std::span<double> functions) const {
   using Kind = Step::Kind;
   double* const x = work.slots.data();
-  // Up to its event an `abs` keeps its side, and is a little below 0 then. Powers and roots of it go on as odd functions.
+  // Up to its event a switch keeps its side: abs(x), max(x, 0) and the x of x > 0 ? f : 0 are a little below 0 then. Powers and roots go on there as odd
+  // functions.
   bool past_switch = false;
   for (std::uint32_t k = 0; k < steps_.size(); ++k) {
     const Step& step = steps_[k];
@@ -171,26 +172,25 @@ void RunTimeExpression::run(Workspace& work, bool with_slopes, std::span<const d
       case Kind::either:
         value = a != 0 || b != 0;
         break;
-      case Kind::power:
+      case Kind::power: {
         value = std::pow(a, b);
-        if (past_switch && a < 0 && std::isnan(value)) {
-          value = -std::pow(-a, b);
-          of_left = b * std::pow(-a, b - 1);
-        } else if (with_slopes) {
-          of_left = b == 0 ? 0 : b * std::pow(a, b - 1);
+        const bool mirrored = past_switch && a < 0 && std::isnan(value);
+        const double base = mirrored ? -a : a;
+        if (mirrored) value = std::pow(base, b);
+        if (with_slopes) {
+          of_left = b == 0 ? 0 : b * std::pow(base, b - 1);
+          of_right = step.constant_exponent || value == 0 ? 0 : value * std::log(base);
         }
-        if (!with_slopes) break;
-        of_right = step.constant_exponent || value == 0 ? 0 : value * std::log(std::abs(a));
+        if (mirrored) value = -value, of_right = -of_right;
         break;
+      }
       case Kind::call: {
-        const double both[] = {a, b};
+        double both[] = {a, b};
         const std::span arguments(both, step.arguments);
         value = step.function->value(arguments);
         if (past_switch && step.arguments == 1 && a < 0 && std::isnan(value)) {
-          const double other = -a;
-          value = -step.function->value(std::span(&other, 1));
-          if (with_slopes) of_left = step.function->slope(std::span(&other, 1), 0);
-          break;
+          both[0] = -a;
+          value = -step.function->value(arguments);
         }
         if (!with_slopes) break;
         of_left = step.function->slope(arguments, 0);
@@ -202,6 +202,7 @@ void RunTimeExpression::run(Workspace& work, bool with_slopes, std::span<const d
         double side = no_side;
         if (step.switch_number != no_switch && !given.empty()) side = given[step.switch_number];
         if (std::isnan(side)) side = side_of(step, g);
+        past_switch = past_switch || margin_of(step, side, g).first < 0;
         if (step.switch_number != no_switch) {
           work.ordered = work.ordered && !std::isnan(g);
           if (!chosen.empty()) chosen[step.switch_number] = side;
@@ -225,7 +226,6 @@ void RunTimeExpression::run(Workspace& work, bool with_slopes, std::span<const d
             break;
           case Kind::abs:
             value = side * a, of_left = side;
-            past_switch = past_switch || value < 0;
             break;
           case Kind::min:
           case Kind::max:

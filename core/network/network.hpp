@@ -44,7 +44,7 @@ struct Network {
     std::array<NodeId, 3> node;
     std::array<double, 3> factor;
     std::optional<Loss> loss = {};  ///< At rest; at the present speed: Inputs::loss.
-    int friction = -1;  ///< Of its losses: index into `sliders`, between its first node and its support; -1: none.
+    int friction = -1;  ///< Friction of its losses: index into `sliders`, between its first node and its support; -1: none.
   };
   /// With a `block`, the velocity is `sign` times its output, and the position begins at `from` [m] if that is given. A given
   /// acceleration is integrated by such a block.
@@ -61,10 +61,10 @@ struct Network {
   struct Slider {
     Branch branch;
     Box box;  ///< At constant parameters; else see Inputs::box.
-    const Component* component = nullptr;          ///< Of its law.
-    std::vector<double> values = {};               ///< Of its parameters; empty if all are constant.
+    const Component* component = nullptr;          ///< Component of its law.
+    std::vector<double> values = {};               ///< Values of its parameters; empty if all are constant.
     std::vector<VaryingParameter> varying = {};
-    const Characteristic* characteristic = nullptr;  ///< Of its friction over the speed.
+    const Characteristic* characteristic = nullptr;  ///< Curve of its friction over the speed.
 
     LawValues law_values() const { return {values, characteristic}; }
     std::optional<Contact> contact = {};           ///< For a law that has a force only in contact ...

@@ -210,7 +210,7 @@ TEST_CASE("Slider in series with sfm, behind a mass that is pushed") {
     const Response sliding = Response::constant(s * (F - Fc) / m).integral(first.derivative()(slips));
     const double fastest = sliding(lets_go - slips), turns = lets_go + s * fastest * m / Fc;
     REQUIRE_LT(turns, 0.9 * stop);
-    // From there it oscillates freely: the force varies between Fc and -Fc.
+    // It then oscillates freely: the force varies between Fc and -Fc.
     const Response last = Response().second_order(i, -i, s * Fc / sigma, 0);
     const Trajectory course({{0, first.derivative(), sigma * first},
                          {slips, sliding, Response::constant(s * Fc)},

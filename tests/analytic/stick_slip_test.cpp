@@ -183,7 +183,7 @@ TEST_CASE("A mass dragged by a belt") {
   }
 }
 
-// The mass sticks until x = Fc/k and then oscillates about that position; the amplitude of its velocity is the velocity of the belt. So it
+// The mass sticks until x = Fc/k and then oscillates about that position; the amplitude of its velocity is the velocity of the belt. The mass
 // is as fast as the belt once in each period, where an event `stick` may or may not occur.
 TEST_CASE("A mass on a belt comes back to the belt's velocity without sticking") {
   const double belt = 0.0917, omega = std::sqrt(k / m), leaves = Fc / (k * belt);

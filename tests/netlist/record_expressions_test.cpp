@@ -103,6 +103,7 @@ TEST_CASE("record expressions: mistakes") {
   CHECK(contains_all(said("\"k.acceleration\""), {"`k` has no `acceleration`"}));
   CHECK(contains_all(said("\"g.acceleration\""), {"`g` has no `acceleration`"}));
   CHECK(contains_all(said("\"k.energie\""), {"`k` has no `energie`", "did you mean `k.energy`?"}));
+  CHECK(contains_all(said("\"g.k\""), {"`g.k` does not say which quantity is meant", "did you mean `g.k.force`?"}));
   CHECK(contains_all(said("\"gap\""), {"`gap` does not say which quantity is meant"}));
 }
 

@@ -24,7 +24,7 @@ struct Project : Folder {
 };
 
 struct Row {
-  double value, largest, relative;  ///< Of the varied parameter, and the differences of the scenes.
+  double value, largest, relative;  ///< Value of the varied parameter, and the differences of the scenes.
 };
 
 /// The table of `rheonet compare` with these arguments, which vary a parameter of the given unit.

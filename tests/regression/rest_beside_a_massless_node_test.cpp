@@ -6,7 +6,7 @@
 using namespace rheonet;
 
 // A slider whose ends have come to relative rest was not allowed to continue in its earlier direction, not even if it had broken away at the
-// same instant, or if only higher derivatives of the drive determine its direction. So it alternated between stick and slip.
+// same instant, or if only higher derivatives of the drive determine its direction. The slider alternated between stick and slip.
 TEST_CASE("a slider between a massless node and a mass comes to rest, and goes on") {
   SUBCASE("it breaks away in the instant of another change") {
     test::check_against_closer(test::netlist({}, R"([elements]
@@ -32,7 +32,7 @@ m1 = { type = "mass", at = "n1", mass = 0.07926017738542353 }
   }
 }
 
-// Such a slider has its full force at first, which then falls only quadratically in time. The error of the first step let it slip again for a
+// A slider between a massless node and a mass has its full force at first, which then falls only quadratically in time. The error of the first step let it slip again for a
 // moment, and at a loose accuracy many times.
 TEST_CASE("a slider that has come to rest at its full force sticks at once, however loose the accuracy") {
   for (const double accuracy : {1e-2, 1e-3, 1e-5, 1e-8}) {

@@ -246,8 +246,8 @@ c2 = { type = "dashpot", between = ["top", "right"], damping = 4 }
 k2 = { type = "spring", between = ["right", "ground"], stiffness = 30 }
 k3 = { type = "spring", between = ["left", "right"], stiffness = 50 })";
   const Found of = found(elements, "", 2, 41);
-  // After the step, s = left + right - top decays at k/c, because k3 takes no part. d = left - right decays at (k + 2 k3)/c from its value just
-  // after the step: left + right = top throughout by symmetry, with left = 0 and right = top just after it.
+  // After the step, s = left + right - top decays at k/c, because k3 takes no part. The difference d = left - right
+  // decays at (k + 2 k3)/c from its value just after the step. By symmetry left + right = top always; just after the step left = 0 and right = top.
   constexpr double k = 30, c = 4, k3 = 50, X = 0.1;
   const double rate = (k + 2 * k3) / c, end = k * X / (k + 2 * k3);
   const auto apart = [=](double t) { return t < 0.2 ? 0 : end + (-X - end) * std::exp(-rate * (t - 0.2)); };

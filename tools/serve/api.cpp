@@ -15,20 +15,18 @@ using namespace std::chrono_literals;
 
 constexpr std::size_t longest_body = 1u << 20;  // Largest body of a request [bytes].
 
-/// Answers with uncompressed bytes. `set_content` would compress them again for each request, which takes seconds for a script of 1 MB.
-void send(httplib::Response& response, std::string_view bytes, const char* type) {
+/// Answers with these bytes as they are. `set_content` would compress them again for each request, which takes seconds for a script of 1 MB.
+/// `owner` keeps the bytes until they are sent, unless they last as long as the program.
+void send(httplib::Response& response, std::string_view bytes, const char* type, std::shared_ptr<const std::string> owner = nullptr) {
   if (bytes.empty()) return response.set_content("", type);
-  response.set_content_provider(bytes.size(), type, [bytes](std::size_t from, std::size_t length, httplib::DataSink& sink) {
+  response.set_content_provider(bytes.size(), type, [bytes, owner = std::move(owner)](std::size_t from, std::size_t length, httplib::DataSink& sink) {
     return sink.write(bytes.data() + from, length);
   });
 }
 
 void send_text(httplib::Response& response, std::string text, const char* type) {
   const auto kept = std::make_shared<const std::string>(std::move(text));
-  if (kept->empty()) return response.set_content("", type);
-  response.set_content_provider(kept->size(), type, [kept](std::size_t from, std::size_t length, httplib::DataSink& sink) {
-    return sink.write(kept->data() + from, length);
-  });
+  send(response, *kept, type, kept);
 }
 
 void send(httplib::Response& response, const httplib::Request& request, const web::Asset& asset) {

@@ -1,7 +1,8 @@
-// Up to the event at which its argument changes sign, the magnitude of a small value is a little below 0: a power of it goes on.
+// Up to the event at which its argument changes sign, abs(x) or max(x, 0) is a little below 0: a power of it goes on.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -53,6 +54,36 @@ output = {{ points = 31 }}
 record = ["x.position"]
 )", m, F, f, n), 1e-7);
     CHECK(std::abs(run["x.position"].back() - reference(3, n, 300'000)) <= 1e-5 * run.scale("x.position"));
+  }
+}
+
+// A ball meets Hertz' contact: the force k d^(3/2) of its penetration d.
+TEST_CASE("Hertz' contact gives the largest penetration and the velocity of the rebound, however its law is written") {
+  constexpr double mass = 0.05, stiffness = 1e5, v = 0.3, gap = 0.01;
+  for (const char* force : {"k*max(d, 0)^1.5", "d > 0 ? k*d^1.5 : 0", "k*max(d, 0)*sqrt(max(d, 0))", "k*((d + abs(d))/2)^1.5"}) {
+    CAPTURE(force);
+    for (const double accuracy : {1e-3, 1e-6, 1e-9}) {
+      CAPTURE(accuracy);
+      const RunTable run = simulate(fmt::format(R"([laws.hertz]
+parameters = {{ k = "1e5 N/m^1.5" }}
+force = "{}"
+stores = "0.4*k*max(d, 0)^2.5"
+[nodes]
+ball = {{ position = {}, velocity = {} }}
+[elements]
+m = {{ type = "mass", at = "ball", mass = {} }}
+c = {{ type = "hertz", between = ["ball", "ground"] }}
+[simulate]
+stop = 0.06
+output = {{ points = 6001 }}
+record = ["ball.position", "ball.velocity", "c.energy"]
+)", force, -gap, v, mass), accuracy);
+      // All of the kinetic energy is in the contact at the largest penetration.
+      const double deepest = std::pow(mass * v * v / 2 / (0.4 * stiffness), 0.4);
+      const std::vector<double>& position = run["ball.position"];
+      CHECK(*std::max_element(position.begin(), position.end()) == doctest::Approx(deepest).epsilon(std::max(20 * accuracy, 1e-4)));
+      CHECK(run["ball.velocity"].back() == doctest::Approx(-v).epsilon(20 * accuracy));
+    }
   }
 }
 
