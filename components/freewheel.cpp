@@ -15,7 +15,7 @@ const RegisterComponent register_freewheel({
     .declaration =
         {
             .type = "freewheel",
-            .other_names = {"one_way_clutch", "ratchet"},
+            .other_names = {"one_way_clutch", "overrunning_clutch", "ratchet"},
             .ports = Declaration::Ports::between,
             .summary = "overrunning clutch: its first node runs ahead of the second freely, and never falls behind",
             .law = "w >= 0 with f = 0, or w = 0 with f <= 0",
