@@ -76,7 +76,7 @@ test('a mistake is marked where it is, and what was there stays', async () => {
   assert.equal(await page.locator('.plots.stale').count(), 1);
   assert.ok(await page.locator('.plots .chart canvas').count());
   await redrawn(page, async () => {
-    // What was typed is several steps if there was a pause in it.
+    // A pause in typing makes several steps of it.
     do await page.keyboard.press('Control+z');
     while (/^s/.test(await page.locator('.cm-line').last().textContent()));
   });

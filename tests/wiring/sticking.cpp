@@ -23,7 +23,7 @@ struct Force {
   const SceneElement* element;
   const std::vector<double>* column;
   bool gear, applied;  ///< `applied`: the element exerts the force on the node, so that it counts with the opposite sign.
-  const std::vector<double>* velocity = nullptr;  ///< Of an element that can stick.
+  const std::vector<double>* velocity = nullptr;  ///< Velocity of an element that can stick.
 };
 
 /// Range of a force.
