@@ -131,15 +131,30 @@ class Certification {
     return summary.steps > 0 && summary.arc_steps == summary.steps;
   }
 
+  static bool mostly_finest(const Attempt& run) {
+    const Summary& summary = run.reference.trajectory.summary;
+    return 2 * summary.finest_steps > summary.steps;
+  }
+
+  /// Whether round-off kept the steps of a tighter run from becoming shorter, so that both have one error in common.
+  bool alike(const Attempt& measured, const Attempt& tighter) const {
+    if (on_arcs(measured)) return false;
+    const double steps = static_cast<double>(measured.reference.trajectory.summary.steps), more = static_cast<double>(tighter.reference.trajectory.summary.steps);
+    return mostly_finest(tighter) || numerics::certificate_own_error * std::pow(more, settings_.order) < std::pow(steps, settings_.order);
+  }
+
+  /// A run of another order, whose steps, formulas and round-off are others.
+  ReferenceSolution run_of_other_order(double tolerance) const {
+    const int order = settings_.order > 1 ? settings_.order - 1 : 2;
+    return run_as_reference(scene_, shift_, {.interrupt = settings_.interrupt, .tolerance = tolerance, .method = Scene::Method::ida, .order = order, .account = false});
+  }
+
   /// A run that measures another one: by IDA, whose errors have nothing in common with those of exact arcs.
   std::shared_ptr<Attempt> measuring_run(double tolerance) const {
     RunSettings by_ida = settings_;
     by_ida.method = Scene::Method::ida;
     if (tolerance > numerics::certificate_roundoff * (1 + numerics::equal_tolerances)) return attempt(by_ida, tolerance);
-    auto beside = std::async(std::launch::async, [&] {
-      const int other_order = settings_.order > 1 ? settings_.order - 1 : 2;
-      return run_as_reference(scene_, shift_, {.interrupt = settings_.interrupt, .tolerance = tolerance, .method = Scene::Method::ida, .order = other_order, .account = false});
-    });
+    auto beside = std::async(std::launch::async, [&] { return run_of_other_order(tolerance); });
     std::shared_ptr<Attempt> result = attempt(by_ida, tolerance);
     try {
       result->other = beside.get();
@@ -160,20 +175,31 @@ class Certification {
     return {measured, tighter};
   }
 
+  void count_run(const ReferenceSolution& done) {
+    ++result_.runs;
+    result_.cpu_seconds += done.trajectory.summary.cpu_seconds;
+  }
   void count(const Attempt& done) {
-    result_.runs += done.other ? 2 : 1;
-    result_.cpu_seconds += done.reference.trajectory.summary.cpu_seconds;
-    if (done.other) result_.cpu_seconds += done.other->trajectory.summary.cpu_seconds;
+    count_run(done.reference);
+    if (done.other) count_run(*done.other);
   }
 
   /// Measures a run. Returns true if it is accurate enough.
-  bool measure(const std::shared_ptr<Attempt>& measured, const Attempt& tighter) {
+  bool measure(const std::shared_ptr<Attempt>& measured, Attempt& tighter) {
     const ErrorMeasure as_promised{
         .allowed = scene_.accuracy, .shift = shift_, .factor = 1 / (1 - numerics::certificate_own_error)};
     const Trajectory& trajectory = measured->reference.trajectory;
     std::vector<RecordError> errors = record_errors(scene_, trajectory, tighter.reference, as_promised);
-    const Summary& summary = tighter.reference.trajectory.summary;
-    if (tighter.other) count_other(errors, record_errors(scene_, trajectory, *tighter.other, as_promised), 2 * summary.finest_steps > summary.steps);
+    if (!tighter.other && alike(*measured, tighter)) {
+      try {
+        tighter.other = run_of_other_order(tighter.tolerance);
+      } catch (const SimulationError&) {
+        tighter.failure = std::current_exception();
+        return false;
+      }
+      count_run(*tighter.other);
+    }
+    if (tighter.other) count_other(errors, record_errors(scene_, trajectory, *tighter.other, as_promised), alike(*measured, tighter));
     const std::optional<Imbalance> imbalance = balances_.raise(trajectory, scene_.accuracy, errors);
     const std::size_t worst = worst_of(errors);
     const RecordError error = errors.empty() ? RecordError{} : errors[worst];
@@ -193,13 +219,13 @@ class Certification {
 
   /// Raises errors to the estimate from a third run, which is at the distances `others`. If the errors of three runs a, b, c
   /// are independent, the mean of (a - b)(a - c) is the mean square error of a (J. E. Gray and D. W. Allan, 28th Symposium on
-  /// Frequency Control (1974) 243). The error is not estimated below that. `finest`: the steps of b were at the least tolerance, as those of a may be, so that
-  /// both may have one error in common; then a - c is the estimate.
-  void count_other(std::vector<RecordError>& errors, const std::vector<RecordError>& others, bool finest) const {
+  /// Frequency Control (1974) 243). The error is not estimated below that. `alike`: a and b may have
+  /// one error in common; then a - c is the estimate.
+  void count_other(std::vector<RecordError>& errors, const std::vector<RecordError>& others, bool alike) const {
     for (std::size_t k = 0; k < errors.size(); ++k) {
       RecordError& error = errors[k];
       const RecordError& other = others[k];
-      const double independent = finest ? other.largest : (1 - numerics::certificate_own_error) * std::sqrt(error.largest) * std::sqrt(other.largest);
+      const double independent = alike ? other.largest : (1 - numerics::certificate_own_error) * std::sqrt(error.largest) * std::sqrt(other.largest);
       if (independent <= error.largest) continue;
       error.largest = independent;
       error.time = other.time;

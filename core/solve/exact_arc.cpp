@@ -26,8 +26,9 @@ struct ExactArc::Implementation {
   int limiting = -1;  ///< the unknown for which the last step is no longer; -1 if none
   TimePoint begin;
   double length = 0;
+  double base = 0;             ///< Time of y0 [s since `begin`].
   VectorXd y0;
-  MatrixXd given;              ///< Coefficients of h by the functions of time since `begin`.
+  MatrixXd given;              ///< Coefficients of h by the functions of time since `base`.
   VectorXd z;                  ///< At `from`.
   double from = 0, step = 0;   ///< The last step: its start [s since `begin`] and its length [s].
   StepNodes::Values y, yp;          ///< The solution less y0, and its rate, in the last step.
@@ -67,9 +68,9 @@ struct ExactArc::Implementation {
     next_level = 0;
   }
 
-  /// h at this time.
+  /// h at this time since `base`.
   VectorXd given_at(double tau) {
-    const TimePoint t = begin + tau;
+    const TimePoint t = begin + (base + tau);
     dae.refine(t);
     VectorXd residual(n);
     dae.residual(t.t, y0.data(), at_rest.data(), residual.data());
@@ -84,9 +85,9 @@ struct ExactArc::Implementation {
       const Index samples = 2 * functions.count();
       for (Index s = 1; s < samples; ++s) {
         const double turns = (std::numbers::phi - 1) * static_cast<double>(s);
-        times.push_back((turns - std::floor(turns)) * length);
+        times.push_back((turns - std::floor(turns)) * (length - base));
       }
-      times.push_back(length);
+      times.push_back(length - base);
     }
     MatrixXd values(static_cast<Index>(times.size()), n);
     for (std::size_t s = 0; s < times.size(); ++s) values.row(static_cast<Index>(s)) = given_at(times[s]).transpose();
@@ -97,25 +98,35 @@ struct ExactArc::Implementation {
     return given.allFinite() && (misfit.array() <= numerics::arc_misfit * largest.cwiseMax(terms).array()).all();
   }
 
-  /// Bound of the sum of the magnitudes from which an unknown follows in the last step, which had this level.
-  double magnitudes(Index i, const LinearEquations::Level& level) {
-    return equations().of_states().row(i).cwiseAbs().dot(level.largest_states * drive.cwiseAbs()) +
-           given_part.row(i).cwiseAbs().dot(level.largest_functions);
+  /// Bounds of the sums of magnitudes from which the unknowns follow in the last step, which had this level, and their rates.
+  struct Magnitudes {
+    VectorXd values, rates;
+  };
+  Magnitudes magnitudes(const LinearEquations::Level& level) {
+    const auto of_states = equations().of_states().cwiseAbs();
+    const VectorXd largest = level.largest_states * drive.cwiseAbs();
+    return {of_states * largest + given_part.cwiseAbs() * level.largest_functions,
+            of_states * (equations().rate_of_states().cwiseAbs() * largest + pushes.cwiseAbs() * level.largest_functions) + given_rate.cwiseAbs() * level.largest_functions};
   }
 
+  /// Whether the polynomials of the unknowns, and what their rates change within the step, are right to negligible parts of the tolerances.
   bool converged(const LinearEquations::Level& level) {
     const StepNodes& nodes = step_nodes();
+    const double round_off = numerics::arc_ulps * std::numeric_limits<double>::epsilon();
+    std::optional<Magnitudes> sums;
     double worst = 1;
     bool all = true;
     for (Index i = 0; i < n; ++i) {
-      const double most = (y.row(i).array() + y0(i)).abs().maxCoeff();
-      const double negligible = std::max(numerics::arc_share * tolerance[at(static_cast<int>(i))], numerics::arc_ulps * std::numeric_limits<double>::epsilon() * most);
-      const double left = std::abs(y.row(i).dot(nodes.highest)) + std::abs(y.row(i).dot(nodes.second_highest));
+      const double negligible = std::max(numerics::arc_share * tolerance[at(static_cast<int>(i))], round_off * (y.row(i).array() + y0(i)).abs().maxCoeff());
+      const double value = std::abs(y.row(i).dot(nodes.highest)) + std::abs(y.row(i).dot(nodes.second_highest));
+      const double rate = step * (std::abs(yp.row(i).dot(nodes.highest)) + std::abs(yp.row(i).dot(nodes.second_highest)));
+      if (value <= negligible && rate <= negligible) continue;
       // Small differences of large terms have their round-off, which no shorter step reduces.
-      if (left <= negligible || left <= numerics::arc_ulps * std::numeric_limits<double>::epsilon() * magnitudes(i, level)) continue;
+      if (!sums) sums = magnitudes(level);
+      if (value <= std::max(negligible, round_off * sums->values(i)) && rate <= std::max(negligible, round_off * step * sums->rates(i))) continue;
       all = false;
-      if (left <= worst * negligible) continue;
-      worst = left / negligible;
+      if (std::max(value, rate) <= worst * negligible) continue;
+      worst = std::max(value, rate) / negligible;
       limiting = static_cast<int>(i);
     }
     return all;
@@ -149,21 +160,37 @@ struct ExactArc::Implementation {
     add(given_rate, level.functions, yp);
   }
 
+  /// Where unknowns have become much smaller than they were at y0, y0 + d has lost their digits: takes the present values as y0.
+  void renew_base(const StepNodes::Shares& now) {
+    const VectorXd values = y0 + y * now;
+    for (Index i = 0; i < n; ++i) {
+      if (std::abs(values(i)) >= numerics::arc_base * std::abs(y0(i)) || std::abs(y0(i)) <= numerics::arc_share * tolerance[at(static_cast<int>(i))]) continue;
+      y0 = values;
+      base = from;
+      z.setZero();
+      find_given(equations().functions());
+      equations().respond_to(given, length - base);
+      return;
+    }
+  }
+
   /// Goes on from a time in the last step.
   double go(double begin_of_step, double longest) {
     LinearEquations& e = equations();
     if (begin_of_step > from) {
-      z = states * shares_at((begin_of_step - from) / step);
+      const StepNodes::Shares now = shares_at((begin_of_step - from) / step);
+      z = states * now;
       from = begin_of_step;
+      renew_base(now);
     }
     // Inputs as sums of functions of the time since the beginning of this step.
-    const MatrixXd h = e.functions().shifted(given, from);
+    const MatrixXd h = e.functions().shifted(given, from - base);
     pushes = e.pushes(h);
     given_part = e.of_given(h);
     given_rate = e.functions().derivative(given_part);
     drive = e.drive(z, pushes);
     const double left = length - from;
-    int level = std::min(next_level, numerics::arc_levels);
+    int level = next_level;
     while (level > 0 && (e.length(level - 1) >= std::min(left, longest) || e.functions().fastest() * e.length(level) > numerics::arc_phase)) --level;
     limiting = -1;
     for (;; --level) {
@@ -192,13 +219,13 @@ bool ExactArc::begin(TimePoint t, const std::vector<double>& y, double length) {
   functions = functions->within(length);
   s.begin = t;
   s.length = length;
+  s.base = 0;
   s.y0 = Eigen::Map<const VectorXd>(y.data(), s.n);
   s.find_equations(*functions);
   LinearEquations& e = s.equations();
   if (!e.regular()) return false;
-  if (length * e.fastest_decay() > numerics::arc_decays || !s.find_given(*functions)) return false;
+  if (e.too_stiff(length) || !s.find_given(*functions)) return false;
   e.respond_to(s.given, length);
-  if (length > numerics::arc_steps * e.length(0)) return false;
   s.z = VectorXd::Zero(e.states());
   s.from = s.step = 0;
   return true;

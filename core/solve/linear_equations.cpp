@@ -155,15 +155,28 @@ void LinearEquations::eliminate(const Dae& dae, double slowest) {
   of_states_ = S(Eigen::all, rows);
   of_given_ = S;
   of_given_(Eigen::all, rows).setZero();
-  const MatrixXd K = K_(rows, Eigen::all);
-  A_ = -K * of_states_;
-  L_ = -K * of_given_;
-  for (std::size_t k = 0; k < rows.size(); ++k) L_(static_cast<Index>(k), rows[k]) += 1;
+  MatrixXd by(of_states_.cols(), 2 * n);  // z' = by [d; h]
+  by << -K_(rows, Eigen::all), MatrixXd::Identity(n, n)(rows, Eigen::all);
+  A_ = by.leftCols(n) * of_states_;
   const VectorXd scale = balance(A_, slowest);
   of_states_ = of_states_ * scale.asDiagonal();
-  L_ = scale.cwiseInverse().asDiagonal() * L_;
+  by = scale.cwiseInverse().asDiagonal() * by;
+  groups_ = separate_time_scales(A_, by, of_states_, slowest);
+  L_ = by.leftCols(n) * of_given_ + by.rightCols(n);
   regular_ = A_.allFinite() && L_.allFinite() && of_states_.allFinite() && of_given_.allFinite();
-  if (regular_ && A_.rows() > 0) fastest_decay_ = std::max(0.0, -A_.eigenvalues().real().minCoeff());
+}
+
+double LinearEquations::norm() const { return A_.size() == 0 ? 0 : A_.cwiseAbs().colwise().sum().maxCoeff(); }
+
+bool LinearEquations::too_stiff(double interval) const {
+  if (functions_.fastest() * interval > numerics::arc_steps) return true;
+  if (norm() * interval <= numerics::arc_decays) return false;
+  return std::any_of(groups_.begin(), groups_.end(), [&](const StateGroup& group) {
+    const Eigen::VectorXcd rates = MatrixXd(A_(group, group)).eigenvalues();
+    const double fastest = rates.cwiseAbs().maxCoeff(), slowest = rates.cwiseAbs().minCoeff();
+    if (rates.imag().maxCoeff() * interval > numerics::arc_steps) return true;
+    return fastest > numerics::arc_gap * numerics::arc_gap * slowest && -rates.real().minCoeff() * interval > numerics::arc_decays;
+  });
 }
 
 VectorXd LinearEquations::drive(const VectorXd& z, const MatrixXd& pushes) const {
@@ -180,7 +193,7 @@ void LinearEquations::respond_to(const MatrixXd& h, double interval) {
   for (Index i = 0; i < most.size(); ++i) {
     if (most(i) > 0) pushed.push_back(i);
   }
-  const double fastest = std::max(A_.size() == 0 ? 0 : A_.cwiseAbs().colwise().sum().maxCoeff(), functions_.fastest());
+  const double fastest = std::max(norm(), functions_.fastest());
   const double slow_enough = fastest > 0 ? numerics::arc_shortest / fastest : std::numeric_limits<double>::infinity();
   const bool fits = shortest_ <= interval && (shortest_ == slow_enough || interval <= length(numerics::arc_levels));
   if (!levels_.empty() && fits && std::includes(pushed_.begin(), pushed_.end(), pushed.begin(), pushed.end())) return;

@@ -7,6 +7,7 @@
 #include "core/base/numerics.hpp"
 #include "core/dae/dae.hpp"
 #include "core/dae/time_functions.hpp"
+#include "core/solve/time_scales.hpp"
 
 namespace rheonet {
 
@@ -47,7 +48,8 @@ class LinearEquations {
   Eigen::VectorXd terms(const Eigen::VectorXd& d) const { return K_.cwiseAbs() * d.cwiseAbs(); }
 
   Eigen::Index states() const { return A_.rows(); }
-  double fastest_decay() const { return fastest_decay_; }  ///< rate at which a motion dies away [1/s]
+  /// Whether motions that change fast would cost slow ones their digits in an interval of this length [s], or take forever to follow.
+  bool too_stiff(double interval) const;
   Eigen::MatrixXd pushes(const Eigen::MatrixXd& h) const { return L_ * h; }       ///< L h
   /// z, and below it the pushes of those states that h can push.
   Eigen::VectorXd drive(const Eigen::VectorXd& z, const Eigen::MatrixXd& pushes) const;
@@ -77,12 +79,13 @@ class LinearEquations {
 
  private:
   void eliminate(const Dae& dae, double slowest);
+  double norm() const;  ///< no rate is larger [1/s]
   Level make_level(double of_step, const Level* half) const;
 
   Eigen::MatrixXd K_, both_;
   bool regular_ = false;
   Eigen::MatrixXd A_, L_, of_states_, of_given_;
-  double fastest_decay_ = 0;
+  std::vector<StateGroup> groups_;
   TimeFunctions functions_;
   std::vector<Eigen::Index> pushed_;  ///< states that the inputs push, ascending
   double shortest_ = 0;  ///< h0 [s]

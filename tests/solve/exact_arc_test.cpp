@@ -197,12 +197,11 @@ TEST_CASE("what is not linear is left to IDA, or named") {
   CHECK(refusal("[elements]\n" + mass + "[simulate]\nstop = 1\nmethod = \"arcs\"").find("`method` must be `auto`, `ida` or `exact`, but is `arcs`") != std::string::npos);
 }
 
-// The fast motion decays within 1e-9 s: no step of an arc is long enough.
-TEST_CASE("what is too stiff for exact arcs is left to IDA") {
+TEST_CASE("what oscillates too often for exact arcs is left to IDA") {
   const std::string toml = R"([elements]
 m = { type = "mass", at = "b", mass = 1e-9 }
-c = { type = "dashpot", between = ["b", "ground"], damping = 1 }
-push = { type = "force", at = "b", force = { sine = 1, frequency = 0.1 } }
+k = { type = "spring", between = ["b", "ground"], stiffness = 1e18 }
+push = { type = "force", at = "b", force = { sine = 1e6, frequency = 0.1 } }
 [simulate]
 method = "exact"
 stop = 100
@@ -210,8 +209,7 @@ stop = 100
   Summary summary;
   const RunTable rows = simulate(scene_of(toml), &summary);
   CHECK_EQ(summary.arc_steps, 0);
-  CHECK_LE(summary.steps, 2000);
-  CHECK_LE(error_of(rows, "b.velocity", [](double t) { return std::sin(0.2 * M_PI * t); }), 1e-6);
+  CHECK_LE(error_of(rows, "k.force", [](double t) { return 1e6 * std::sin(0.2 * M_PI * t); }), 1e-6);
 }
 
 TEST_CASE("a row at which a slider comes to rest and an input jumps is that after the jump") {
