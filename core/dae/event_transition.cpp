@@ -231,9 +231,9 @@ EventTransition::Nodal EventTransition::nodal(const State& state, const std::vec
   for (const Laws<RateBatch>& laws : network_.rate_laws) {
     for (std::size_t i = 0; rates && i < laws.batch->size(); ++i) {
       const Branch& b = network_.rates[at(laws.first) + i];
-      const double va = state.velocity[at(b.a)], vb = state.velocity[at(b.b)], w = std::abs(va - vb);
+      const double va = state.velocity[at(b.a)], vb = state.velocity[at(b.b)], w = va - vb;
       const double force = laws.batch->force_at(i, w);
-      add_branch(b, va < vb ? -force : force);
+      add_branch(b, force);
       if (!(laws.batch->growth(i).exponent < 1)) continue;
       // This law is solved for its force, to the round-off of velocities: near rest that round-off changes the force.
       const double left = numerics::equation_roundoff * (std::abs(va) + std::abs(vb));
