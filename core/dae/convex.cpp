@@ -82,6 +82,17 @@ double ConvexNetwork::slope(const Branch& b, double w) const {
   return (w > 0 || (w == 0 && b.side > 0) ? b.law.forward : b.law.backward) + b.weak;
 }
 
+void ConvexNetwork::find_restrained() {
+  DisjointSets rigid(u_.size());
+  for (const Branch& b : branches_) {
+    if (std::isinf(b.law.low) && std::isinf(b.law.high)) rigid.join(b.a, b.b);
+  }
+  std::vector<char> restrained(u_.size(), 0);
+  for (std::size_t k = 0; k < u_.size(); ++k) restrained[at(rigid.find(static_cast<int>(k)))] |= fixed_[k] || inertia_[k] > 0 || (tied_[k] && any_inertia_);
+  restrained_.resize(u_.size());
+  for (std::size_t k = 0; k < u_.size(); ++k) restrained_[k] = restrained[at(rigid.find(static_cast<int>(k)))];
+}
+
 void ConvexNetwork::choose_weak() {
   constexpr double none = std::numeric_limits<double>::infinity();
   // Nodes that move with each other, up to those that are held: a soft element far along a chain may hold all of them.
@@ -89,20 +100,25 @@ void ConvexNetwork::choose_weak() {
   for (const Branch& b : branches_) {
     if (!restrained(at(b.a)) && !restrained(at(b.b))) together.join(b.a, b.b);
   }
-  std::vector<double> least(u_.size(), none);  // slope around the nodes that move with each node, at their representative
-  const auto meet = [&](int node, double slope) {
-    double& least_there = least[at(together.find(node))];
-    least_there = std::min(least_there, slope);
+  // The least slope and the least bounds around the nodes that move with each node, at their representative.
+  std::vector<double> least(u_.size(), none), least_bounds(least);
+  const auto meet = [&](std::vector<double>& of, int node, double value) { of[at(together.find(node))] = std::min(of[at(together.find(node))], value); };
+  const auto bounds = [](const Branch& b) {
+    double sum = 0;
+    for (const double bound : {b.law.low, b.law.high}) sum += std::isfinite(bound) ? std::abs(bound) : 0;
+    return sum;
   };
   double farthest = 0, least_of_all = none;
   for (std::size_t k = 0; k < u_.size(); ++k) {
-    if (inertia_[k] > 0) meet(static_cast<int>(k), inertia_[k]);
+    if (inertia_[k] > 0) meet(least, static_cast<int>(k), inertia_[k]);
     farthest = std::max(farthest, std::abs(base_[k] + u_[k]));
   }
   for (const Branch& b : branches_) {
     const double slope = std::max(b.law.forward, b.law.backward);
-    if (slope == 0) continue;
-    for (int node : {b.a, b.b}) meet(node, slope);
+    for (int node : {b.a, b.b}) {
+      if (slope > 0) meet(least, node, slope);
+      if (bounds(b) > 0) meet(least_bounds, node, bounds(b));
+    }
   }
   for (const double slope : least) least_of_all = std::min(least_of_all, slope);
   for (Branch& b : branches_) {
@@ -110,11 +126,9 @@ void ConvexNetwork::choose_weak() {
     const double steeper = std::max(b.law.forward, b.law.backward), flatter = std::min(b.law.forward, b.law.backward);
     if (!b.jumps && flatter > numerics::flat_law * steeper) continue;
     const double around = std::min(least[at(together.find(b.a))], least[at(together.find(b.b))]);
-    double bounds = 0;
-    for (double bound : {b.law.low, b.law.high}) bounds += std::isfinite(bound) ? std::abs(bound) : 0;
-    const bool by_bounds = farthest > 0 && bounds > 0;
     // The slope of a mass is its inertia over the time step: 1e-9 of it is a large force at the mass's present velocity.
-    b.weak = std::min(numerics::regularising_slope * around, by_bounds ? numerics::regularising_force * bounds / farthest : none);
+    const double force = bounds(b) > 0 ? bounds(b) : std::min(least_bounds[at(together.find(b.a))], least_bounds[at(together.find(b.b))]);
+    b.weak = std::min(numerics::regularising_slope * around, farthest > 0 ? numerics::regularising_force * force / farthest : none);
     if (b.weak == none) b.weak = numerics::regularising_slope * (least_of_all < none ? least_of_all : 1);
   }
 }
@@ -322,6 +336,7 @@ bool ConvexNetwork::stick_where_idle() {
 }
 
 ConvexNetwork::Outcome ConvexNetwork::solve() {
+  find_restrained();
   choose_weak();
   stick_at_first();
   for (Branch& b : branches_) b.w = nodal_difference(b);

@@ -107,7 +107,8 @@ class ConvexNetwork {
   /// Its value does not follow from the forces of branches alone.
   bool firm(std::size_t node) const { return fixed_[node] || inertia_[node] > 0 || tied_[node]; }
   /// It needs no regularising slope, and cannot run away.
-  bool restrained(std::size_t node) const { return fixed_[node] || inertia_[node] > 0 || (tied_[node] && any_inertia_); }
+  bool restrained(std::size_t node) const { return restrained_[node]; }
+  void find_restrained();
   std::vector<std::vector<double>> equations_of_columns(Eigen::VectorXd& left) const;
   bool step_within_equations(const std::vector<Conductance>& slopes, Eigen::VectorXd& step);
   void share_with_locked_equations(const std::vector<int>& row, const Eigen::VectorXd& load, double roundoff);
@@ -150,6 +151,7 @@ class ConvexNetwork {
   std::vector<double> inertia_, applied_;
   std::vector<char> fixed_, tied_;
   bool any_inertia_ = false;
+  std::vector<char> restrained_;  ///< each node: see restrained
   std::vector<Equation> equations_;
   std::vector<double> given_;  ///< Prescribed change of each fixed node.
   std::vector<Branch> branches_;
