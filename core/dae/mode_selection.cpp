@@ -40,6 +40,7 @@ std::vector<int> EventTransition::select_modes(double t, double h, const Fired& 
   if (breaks_loose(selection) && h > least && !breaks_loose(ahead(least))) {
     while (breaks_loose(selection)) selection = ahead(h = std::max(least, numerics::onset_step_ratio * h));
   }
+  while (stops_within(selection, state) && h > least) selection = ahead(h = std::max(least, numerics::onset_step_ratio * h));
   const ConvexNetwork& problem = selection.problem;
   refuse_blocked_motions(t, problem);
   for (std::size_t n = 0; n < nodes; ++n) {
@@ -157,6 +158,17 @@ bool EventTransition::breaks_loose(const ModeSelection& selection) const {
     const int direction = selection.problem.direction(selection.slider[k]);
     const bool within = selection.modes->slider[k] == Modes::stuck && bounds.low < 0 && bounds.high > 0;
     if (direction != 0 && (within || (direction == -came_to_rest_[k] && !prescribed(network_.sliders[k].branch)))) return true;
+  }
+  return false;
+}
+
+/// Whether some slider that slips now comes to rest within h only.
+bool EventTransition::stops_within(const ModeSelection& selection, const State& state) const {
+  for (std::size_t k = 0; k < selection.slider.size(); ++k) {
+    const Branch& b = network_.sliders[k].branch;
+    if (selection.modes->slider[k] == Modes::stuck || came_to_rest_[k] != 0 || massless(b.a) || massless(b.b) || !holds(selection, k)) continue;
+    const double va = state.velocity[at(b.a)], vb = state.velocity[at(b.b)];
+    if (std::abs(va - vb) > numerics::equal_velocities * (std::abs(va) + std::abs(vb))) return true;
   }
   return false;
 }

@@ -136,11 +136,11 @@ class Certification {
     return 2 * summary.finest_steps > summary.steps;
   }
 
-  /// Whether round-off kept the steps of a tighter run from becoming shorter, so that both have one error in common.
+  /// Whether round-off kept the steps of a tighter run from becoming shorter, so that its error is hardly smaller.
   bool alike(const Attempt& measured, const Attempt& tighter) const {
     if (on_arcs(measured)) return false;
     const double steps = static_cast<double>(measured.reference.trajectory.summary.steps), more = static_cast<double>(tighter.reference.trajectory.summary.steps);
-    return mostly_finest(tighter) || numerics::certificate_own_error * std::pow(more, settings_.order) < std::pow(steps, settings_.order);
+    return numerics::certificate_own_error * std::pow(more, settings_.order) < std::pow(steps, settings_.order);
   }
 
   /// A run of another order, whose steps, formulas and round-off are others.
@@ -199,7 +199,7 @@ class Certification {
       }
       count_run(*tighter.other);
     }
-    if (tighter.other) count_other(errors, record_errors(scene_, trajectory, *tighter.other, as_promised), alike(*measured, tighter));
+    if (tighter.other) count_other(errors, record_errors(scene_, trajectory, *tighter.other, as_promised), mostly_finest(tighter));
     const std::optional<Imbalance> imbalance = balances_.raise(trajectory, scene_.accuracy, errors);
     const std::size_t worst = worst_of(errors);
     const RecordError error = errors.empty() ? RecordError{} : errors[worst];
@@ -219,13 +219,13 @@ class Certification {
 
   /// Raises errors to the estimate from a third run, which is at the distances `others`. If the errors of three runs a, b, c
   /// are independent, the mean of (a - b)(a - c) is the mean square error of a (J. E. Gray and D. W. Allan, 28th Symposium on
-  /// Frequency Control (1974) 243). The error is not estimated below that. `alike`: a and b may have
-  /// one error in common; then a - c is the estimate.
-  void count_other(std::vector<RecordError>& errors, const std::vector<RecordError>& others, bool alike) const {
+  /// Frequency Control (1974) 243). The error is not estimated below that. `finest`: the steps of b were at the least tolerance, as those of a may be, so that
+  /// both may have one error in common; then a - c is the estimate.
+  void count_other(std::vector<RecordError>& errors, const std::vector<RecordError>& others, bool finest) const {
     for (std::size_t k = 0; k < errors.size(); ++k) {
       RecordError& error = errors[k];
       const RecordError& other = others[k];
-      const double independent = alike ? other.largest : (1 - numerics::certificate_own_error) * std::sqrt(error.largest) * std::sqrt(other.largest);
+      const double independent = finest ? other.largest : (1 - numerics::certificate_own_error) * std::sqrt(error.largest) * std::sqrt(other.largest);
       if (independent <= error.largest) continue;
       error.largest = independent;
       error.time = other.time;

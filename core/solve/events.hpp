@@ -91,7 +91,8 @@ class NetworkEvents final : public EventFunctions {
   double slider_function(int slider, const Dae::View& view) const;
   bool moved_apart(int slider) const;
   double force_band(int slider) const;
-  [[noreturn]] void report_against_force(double t, int slider) const;
+  /// Throws SimulationError where a slider begins with far more than its bound, or to slip against its force.
+  void refuse_contradiction(double t, int slider, double event_function) const;
   double limit_function(std::size_t limit) const;
   double loss_function(std::size_t loss, const Dae::View& view) const;
   /// Guard k of the sliders, then of the limits, in the state of the view.
