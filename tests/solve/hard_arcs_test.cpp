@@ -217,6 +217,7 @@ TEST_CASE("arcs: a ball comes to rest after infinitely many bounces") {
     CHECK_LE(std::abs(times.back() - rest), 1e-6 * 1.5 * rest);
     CHECK_EQ(of.rows["a.position"].back(), 0);
     CHECK_EQ(of.rows["a.velocity"].back(), 0);
+  CHECK_EQ(of.rows["f.force"].back(), -Fc);  // the floor carries the rest
   }
 }
 
@@ -342,6 +343,7 @@ TEST_CASE("arcs: an elastic ball that friction slows comes to rest, after infini
                          fmt::format("a = {{ position = {} }}", h), 2 * rest);
   CHECK_LE(std::abs(of.events.at("floor").back() - rest), 1e-6 * 2 * rest);
   CHECK_EQ(of.rows["a.velocity"].back(), 0);
+  CHECK_EQ(of.rows["f.force"].back(), -Fc);  // the floor carries the rest
 }
 
 }  // namespace rheonet::test
