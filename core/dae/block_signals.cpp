@@ -207,7 +207,10 @@ Dual BlockSignals::of_function(int index, bool held) {
   const Blocks::Block& block = blocks_->blocks[at(index)];
   FunctionBlock& function = functions_[at(function_of_[at(index)])];
   function.begin(network_->scene->start + now_);
-  for (const Blocks::Input& in : block.inputs) function.add(in.argument, Dual(in.sign) * source(in));
+  for (const Blocks::Input& in : block.inputs) {
+    const bool past_switch = in.from_block && function_of_[at(in.index)] >= 0 && functions_[at(function_of_[at(in.index)])].past_switch();
+    function.add(in.argument, Dual(in.sign) * source(in), held || !rests(block, in.argument), past_switch);
+  }
   const Dual value = function.value(held);
   if (std::isnan(value.value)) {
     // The first block without a value is reported, not those that take its value in.
@@ -217,6 +220,19 @@ Dual BlockSignals::of_function(int index, bool held) {
     undefined_at_ = now_;
   }
   return value;
+}
+
+/// Whether an argument of a function is a velocity, or a difference of velocities, that is 0 in the present modes.
+bool BlockSignals::rests(const Blocks::Block& block, std::size_t argument) const {
+  if (moves_with_.empty()) return false;
+  std::map<NodeId, double> sum;
+  for (const Blocks::Input& in : block.inputs) {
+    if (in.argument != argument) continue;
+    const NodeId node = in.from_block ? -1 : moves_with_[at(in.index)];
+    if (node < 0) return false;
+    if (node != ground) sum[node] += in.sign;
+  }
+  return std::all_of(sum.begin(), sum.end(), [](const auto& of_node) { return of_node.second == 0; });
 }
 
 void BlockSignals::run(bool sides) {

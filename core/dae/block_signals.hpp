@@ -117,6 +117,8 @@ class BlockSignals {
   bool fire(const std::vector<int>& limits);
   /// Whether the output of a function jumps by the events that the last call of `fire` was given.
   bool jumps() const { return jumps_; }
+  /// For the next `run(false)`: the node with which the one of each sensor of a velocity moves in the present modes; -1 for other sensors.
+  void move_with(std::vector<NodeId> nodes) { moves_with_ = std::move(nodes); }
   /// After `run(false)`: each limiter and switch takes the side on which its input is now, except for those that have fired.
   void choose();
   /// Side of a limiter: -1 or 1 if its output is at the lower or upper bound.
@@ -185,6 +187,8 @@ class BlockSignals {
   const Network* network_;
   const Blocks* blocks_;
   std::vector<char> heavy_;  ///< For each sensor: it measures the velocity of a mass.
+  std::vector<NodeId> moves_with_;  ///< see move_with
+  bool rests(const Blocks::Block& block, std::size_t argument) const;
   std::vector<int> run_;           ///< Blocks whose outputs follow from states and inputs, in the order of evaluation.
   std::vector<int> state_of_;      ///< For each block, -1.
   std::vector<int> state_blocks_;

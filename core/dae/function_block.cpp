@@ -26,9 +26,11 @@ void FunctionBlock::begin(double time) {
   arguments_.back() = time;
   rates_.back() = 1;
   changing_.back() = 1;
+  past_switch_ = false;
 }
 
-void FunctionBlock::add(std::size_t argument, Dual value, bool changes) {
+void FunctionBlock::add(std::size_t argument, Dual value, bool changes, bool past_switch) {
+  past_switch_ = past_switch_ || past_switch;
   if (changes) changing_[argument] = 1;
   arguments_[argument] += value.value;
   rates_[argument] += value.derivative;
@@ -39,8 +41,9 @@ Dual FunctionBlock::value(bool held) {
   if (!held) {
     fresh_ = fired_;
     ordered = function_->complete_sides(arguments_, fresh_);
+    if (ordered && rests_on_threshold()) ordered = function_->complete_sides(arguments_, fresh_);
   }
-  const auto value = ordered ? function_->value(arguments_, held ? sides_ : fresh_, partials_) : std::nullopt;
+  const auto value = ordered ? function_->value_past_switches(arguments_, held ? sides_ : fresh_, partials_, past_switch_) : std::nullopt;
   if (!value) {
     // The partial derivatives enter the Jacobian, where a number that is not finite would spoil the equations of others.
     std::fill(partials_.begin(), partials_.end(), 0.0);
@@ -49,6 +52,20 @@ Dual FunctionBlock::value(bool held) {
   Dual result(*value);
   for (std::size_t k = 0; k < arguments_.size(); ++k) result.derivative += partials_[k] * rates_[k];
   return result;
+}
+
+/// A switch that has fired does not go over where its arguments stay exactly at its threshold, as where a slider sticks: there the function has its
+/// value at the threshold. Returns whether there is one; its side is then open.
+bool FunctionBlock::rests_on_threshold() {
+  if (std::all_of(fired_.begin(), fired_.end(), [](double side) { return std::isnan(side); })) return false;
+  function_->switching_functions(arguments_, fresh_, guards_);
+  bool any = false;
+  for (std::size_t k = 0; k < fired_.size(); ++k) {
+    if (std::isnan(fired_[k]) || guards_[k] != 0 || function_->switch_follows(k, arguments_, fresh_, changing_)) continue;
+    fresh_[k] = SwitchedFunction::no_side;
+    any = true;
+  }
+  return any;
 }
 
 double FunctionBlock::event_function(std::size_t which) {

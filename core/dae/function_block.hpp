@@ -15,11 +15,13 @@ class FunctionBlock {
 
   /// Arguments, with rates. `begin` sets all to 0 but the last one, the time in the scene [s].
   void begin(double time);
-  /// `changes`: false for a value that stays as it is until the next event.
-  void add(std::size_t argument, Dual value, bool changes = true);
+  /// `changes`: false for a value that stays as it is until the next event. `past_switch`: of the function that gives the value.
+  void add(std::size_t argument, Dual value, bool changes = true, bool past_switch = false);
   /// The output at the arguments, with its rate; NaN where it, or one of its slopes, is not finite. If the sides are not held, they
   /// are those at the arguments, but for switches that have fired.
   Dual value(bool held);
+  /// Whether a switch, of this function or of one that gives an argument, was past its threshold then.
+  bool past_switch() const { return past_switch_; }
   /// Derivative by an argument at the last evaluation.
   double partial(std::size_t argument) const { return partials_[argument]; }
 
@@ -39,12 +41,15 @@ class FunctionBlock {
   const std::vector<double>& sides() const { return sides_; }
 
  private:
+  bool rests_on_threshold();
+
   const SwitchedFunction* function_;
   std::vector<double> arguments_, rates_, partials_;
   std::vector<char> changing_;  ///< of each argument
   std::vector<double> sides_, fresh_, fired_, guards_;
   double fired_value_ = 0;
   bool changes_now_ = true;
+  bool past_switch_ = false;
   double largest_ = 0;  ///< output at events so far
 };
 

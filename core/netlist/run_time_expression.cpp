@@ -12,6 +12,7 @@ struct RunTimeExpression::Workspace {
   std::vector<std::uint32_t> trace;      ///< steps that were carried out, without jumps
   std::vector<double> sides;
   bool ordered = true;                   ///< no switching function was NaN
+  bool past_switch = false;              ///< a switching function, of this expression or of one of its arguments, is past its threshold
 };
 
 namespace {
@@ -81,6 +82,7 @@ RunTimeExpression::Workspace& RunTimeExpression::start(std::span<const double> a
   work.trace.reserve(steps_.size());
   work.trace.clear();
   work.ordered = true;
+  work.past_switch = false;
   std::copy(slots_.begin(), slots_.end(), work.slots.begin());
   std::copy_n(arguments.begin(), variables_.size(), work.slots.begin());
   return work;
@@ -136,7 +138,7 @@ void RunTimeExpression::run(Workspace& work, bool with_slopes, std::span<const d
   double* const x = work.slots.data();
   // Up to its event a switch keeps its side: abs(x), max(x, 0) and the x of x > 0 ? f : 0 are a little below 0 then. Powers and roots go on there as odd
   // functions.
-  bool past_switch = false;
+  bool& past_switch = work.past_switch;
   for (std::uint32_t k = 0; k < steps_.size(); ++k) {
     const Step& step = steps_[k];
     const double a = x[step.left], b = x[step.right];
@@ -274,8 +276,16 @@ std::optional<double> RunTimeExpression::value(std::span<const double> arguments
 
 std::optional<double> RunTimeExpression::value(std::span<const double> arguments, std::span<const double> sides,
                                                std::span<double> partials) const {
+  bool past_switch = false;
+  return value_past_switches(arguments, sides, partials, past_switch);
+}
+
+std::optional<double> RunTimeExpression::value_past_switches(std::span<const double> arguments, std::span<const double> sides,
+                                                             std::span<double> partials, bool& past_switch) const {
   Workspace& work = start(arguments);
+  work.past_switch = past_switch;
   run(work, true, sides, {}, {});
+  past_switch = work.past_switch;
   std::fill_n(work.adjoints.begin(), slots_.size(), 0.0);
   work.adjoints[result_] = 1;
   sweep(work, partials);

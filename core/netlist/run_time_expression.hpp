@@ -48,6 +48,7 @@ class RunTimeExpression final : public SwitchedFunction {
 
   std::optional<double> value(std::span<const double> arguments, std::span<const double> sides = {}) const override;
   std::optional<double> value(std::span<const double> arguments, std::span<const double> sides, std::span<double> partials) const override;
+  std::optional<double> value_past_switches(std::span<const double> arguments, std::span<const double> sides, std::span<double> partials, bool& past_switch) const override;
 
   /// The sides at given arguments. Returns false if a switching function is not a number.
   bool find_sides(std::span<const double> arguments, std::span<double> sides) const;

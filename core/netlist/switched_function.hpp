@@ -36,6 +36,12 @@ class SwitchedFunction {
   virtual std::optional<double> value(std::span<const double> arguments, std::span<const double> sides = {}) const = 0;
   /// The same, with its exact partial derivatives; absent if one of them is not finite.
   virtual std::optional<double> value(std::span<const double> arguments, std::span<const double> sides, std::span<double> partials) const = 0;
+  /// The same for a function of functions. `past_switch`: before, whether one of those is past a switch, whose side it keeps up to the event;
+  /// after, whether this one is too. Powers and roots go on there: see RunTimeExpression::run.
+  virtual std::optional<double> value_past_switches(std::span<const double> arguments, std::span<const double> sides, std::span<double> partials, bool& past_switch) const {
+    static_cast<void>(past_switch);
+    return value(arguments, sides, partials);
+  }
 
   /// The sides at given arguments, for sides that are `no_side`; keeps the others, but for switches in branches that are not
   /// taken. Returns false if a switching function is not a number.

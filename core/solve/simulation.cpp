@@ -284,6 +284,10 @@ class Run {
         outcome = Integrator::Outcome::event;
         view_of_step();
       }
+      if (outcome == Integrator::Outcome::event && leaps_over_a_law()) {
+        repeat_step(until, shrink);
+        continue;
+      }
       t = system_->integrator.time();
       if (settings_.profile) settings_.profile->step(system_->integrator);
       error_model_.follow(t, view);
@@ -326,6 +330,36 @@ class Run {
       if (t >= until) return until;
       begin_steps(t, until, shrink);
     }
+  }
+
+  /// Whether the step that an event ends has leapt over a change of a law that its ends do not show, as over the peak of friction just before
+  /// rest: within the step, on the way to the event, the equations then have other rates than the step.
+  bool leaps_over_a_law() {
+    const Integrator& integrator = system_->integrator;
+    const double end = integrator.time(), length = end - integrator.previous_time();
+    if (!inputs_.blocks().has_functions() || integrator.exact() || !settings_.locate_events || !(length > time_roundoff(end))) return false;
+    std::vector<double> y, yp, rates;
+    for (int part = 2; part <= numerics::leapt_parts; part *= 2) {
+      const double t = end - length / part;
+      integrator.interpolate(t, 0, y);
+      integrator.interpolate(t, 1, yp);
+      system_->consistency.derivative(t, y, rates);
+      for (std::size_t i = 0; i < rates.size(); ++i) {
+        if (system_->dae.differential(static_cast<int>(i)) && std::abs(rates[i] - yp[i]) * length > numerics::leapt_change * tolerances_.values()[i]) return true;
+      }
+    }
+    return false;
+  }
+
+  /// Goes back to the beginning of the last step, and on in parts of it.
+  void repeat_step(double until, double shrink) {
+    const double t = system_->integrator.previous_time(), part = (system_->integrator.time() - t) / numerics::leapt_parts;
+    system_->integrator.interpolate(t, 0, y_);
+    system_->consistency.project(t, y_);
+    system_->consistency.derivative(t, y_, yp_);
+    leave(t);
+    begin_steps(t, until, shrink);
+    system_->integrator.limit_step(part);
   }
 
   /// The view at the end of the last step, where the events have mostly been evaluated already.

@@ -57,6 +57,38 @@ record = ["x.position"]
   }
 }
 
+// The power takes in what another function gives: the definition of a law, or another block.
+TEST_CASE("powers of what other functions give pass its zeros") {
+  const auto scene = [](const std::string& laws, const std::string& contact) {
+    return simulate(R"([parameters]
+K = "1e3 N"
+L = "1 m"
+)" + laws + R"(
+[elements]
+m = { type = "mass", at = "x", mass = 2 }
+k = { type = "spring", between = ["x", "ground"], stiffness = 40 }
+F = { type = "force", at = "x", force = { sine = "6 N", frequency = "0.7 Hz", phase = "0.3 rad" } }
+)" + contact + R"(
+[nodes]
+x = { velocity = "0.5 m/s" }
+[simulate]
+stop = 4
+record = ["x.position"]
+)", 1e-8);
+  };
+  const std::string at_x = "q = { type = \"q\", between = [\"x\", \"ground\"] }";
+  const RunTable whole = scene("[laws.q]\nparameters = { K = \"1e3 N\", L = \"1 m\" }\nforce = \"K*max(d/L, 0)^1.5\"", at_x);
+  for (const char* law : {"where = { h = \"max(d/L, 0)\" }\nforce = \"K*h^1.5\"", "where = { h = \"d > 0 ? d/L : 0\" }\nforce = \"K*h*sqrt(h)\"",
+                          "where = { g = \"max(d/L, 0)\", h = \"g/2\" }\nforce = \"2^1.5*K*h^1.5\""}) {
+    CAPTURE(law);
+    const RunTable run = scene(std::string("[laws.q]\nparameters = { K = \"1e3 N\", L = \"1 m\" }\n") + law, at_x);
+    for (std::size_t row = 0; row < run.time().size(); ++row) CHECK_LE(std::abs(run["x.position"][row] - whole["x.position"][row]), 1e-7 * whole.scale("x.position"));
+  }
+  const RunTable blocks = scene("", "h = { type = \"function\", in = [\"x.position\"], out = \"max(u1/L, 0)\" }\n"
+                                    "p = { type = \"function\", in = [\"h\"], out = \"-K*u1^1.5\" }\nq = { type = \"force\", at = \"x\", force = { block = \"p\" } }");
+  for (std::size_t row = 0; row < blocks.time().size(); ++row) CHECK_LE(std::abs(blocks["x.position"][row] - whole["x.position"][row]), 1e-7 * whole.scale("x.position"));
+}
+
 // A ball meets Hertz' contact: the force k d^(3/2) of its penetration d.
 TEST_CASE("Hertz' contact gives the largest penetration and the velocity of the rebound, however its law is written") {
   constexpr double mass = 0.05, stiffness = 1e5, v = 0.3, gap = 0.01;
