@@ -54,7 +54,7 @@ stop = 3
       for (const char* stiffness : {"\"inf\"", "1e4"}) {
         CAPTURE(stiffness);
         const RunTable with = simulate(drive(ratio, clutch, fmt::format("play = {{ type = \"stop\", between = [\"pinion\", \"wheel\"], lower = -50, upper = 50, stiffness = {} }}", stiffness).c_str()), 1e-9);
-        for (const char* record : {"load.position", "wheel.velocity", "clutch.torque"}) {
+        for (const char* record : {"load.position", "wheel.velocity", "clutch.force"}) {
           double worst = 0;
           for (std::size_t row = 0; row < with.time().size(); ++row) worst = std::max(worst, std::abs(with[record][row] - without[record][row]));
           CHECK_LE(worst, 1e-8 * largest(without, record));
@@ -86,9 +86,9 @@ output = { points = 1001 }
   CHECK(std::any_of(times.begin(), times.end(), [](double t) { return std::abs(t - 1.61800) < 1e-5; }));
   CHECK(std::none_of(times.begin(), times.end(), [](double t) { return t > 1.5 && t < 1.617; }));
   const RunTable rows = simulate(toml, 1e-6);
-  CHECK_LE(largest(rows, "c0.torque"), 3.1 * (1 + 1e-9));
-  CHECK_LE(largest(rows, "c1.torque"), 2.15 * (1 + 1e-9));
-  CHECK_LE(largest(rows, "c2.torque"), 1.44 * (1 + 1e-9));
+  CHECK_LE(largest(rows, "c0.force"), 3.1 * (1 + 1e-9));
+  CHECK_LE(largest(rows, "c1.force"), 2.15 * (1 + 1e-9));
+  CHECK_LE(largest(rows, "c2.force"), 1.44 * (1 + 1e-9));
 }
 
 // A curve that is steeper one way, and the same law in the netlist.

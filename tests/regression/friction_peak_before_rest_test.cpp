@@ -46,7 +46,7 @@ TEST_CASE("the peak of friction before rest counts, however short the time in wh
   }
   for (const double accuracy : {1e-3, 1e-4, 1e-5, 1e-6, 1e-7}) {
     CAPTURE(accuracy);
-    const RunTable run = simulate(fmt::format(R"([laws.lugre]
+    const RunTable run = simulate(fmt::format(R"toml([laws.lugre]
 parameters = {{ s0 = "1e6 N/m", s1 = "150 N*s/m", s2 = "0.6 N*s/m", Fc = "1.3 N", Fs = "2 N", vs = "2 mm/s" }}
 where = {{ g = "Fc + (Fs - Fc)*exp(-(w/vs)^2)" }}
 states = {{ z = {{ start = "3 um", rate = "w - s0*abs(w)*z/g" }} }}
@@ -58,7 +58,7 @@ fr = {{ type = "lugre", between = ["x", "ground"] }}
 [simulate]
 stop = {}
 output = {{ points = {} }}
-)", m, F, f, stop, rows + 1), accuracy);
+)toml", m, F, f, stop, rows + 1), accuracy);
     double worst_x = 0, worst_friction = 0;
     for (std::size_t row = 0; row < x.size(); ++row) {
       worst_x = std::max(worst_x, std::abs(run["x.position"][row] - x[row]));

@@ -1,5 +1,6 @@
 // While friction holds a node, its velocity is exactly 0: functions of it have their values at 0, not those of the side from which it came.
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include <cmath>
 #include <string>
@@ -9,7 +10,7 @@
 namespace rheonet::test {
 
 TEST_CASE("functions of the velocity of a node that sticks are those of 0") {
-  const RunTable rows = simulate(R"([elements]
+  const RunTable rows = simulate(R"toml([elements]
 m  = { type = "mass", at = "x", mass = 2 }
 F  = { type = "force", at = "x", force = { sine = "5 N", frequency = "0.5 Hz" } }
 fr = { type = "slider", between = ["x", "ground"], coulomb = 3 }
@@ -22,7 +23,7 @@ lk = { type = "lookup", in = "x.velocity", table = [[-1, 5], [0, 5], [0, 3], [1,
 [simulate]
 stop = "3.9 s"
 output = { points = 391 }
-)", 1e-6);
+)toml", 1e-6);
   int at_rest = 0, forward = 0, backward = 0;
   for (std::size_t row = 0; row < rows.time().size(); ++row) {
     const double v = rows["x.velocity"][row], sign = v > 0 ? 1 : v < 0 ? -1 : 0;
@@ -42,24 +43,27 @@ output = { points = 391 }
 
 // Pushed forward only, the mass never feels the friction of the way back: it moves as with the friction of the way forward both ways.
 TEST_CASE("friction that is stronger on the way back, which a mass never takes") {
-  const auto motion = [](const std::string& back) {
-    return simulate(R"([elements]
-m  = { type = "mass", at = "x", mass = 2 }
-F  = { type = "force", at = "x", force = { sine = "2.25 N", frequency = "1 Hz", offset = "2.25 N" } }
-fr = { type = "slider", between = ["x", "ground"], coulomb = { block = "c" } }
-c  = { type = "function", in = ["x.velocity"], out = "u1 >= 0 ? 3 : )" + back + R"(
+  const auto motion = [](int back) {
+    return simulate(fmt::format(R"toml([elements]
+m  = {{ type = "mass", at = "x", mass = 2 }}
+F  = {{ type = "force", at = "x", force = {{ sine = "2.25 N", frequency = "1 Hz", offset = "2.25 N" }} }}
+fr = {{ type = "slider", between = ["x", "ground"], coulomb = {{ block = "c" }} }}
+c  = {{ type = "function", in = ["x.velocity"], out = "u1 >= 0 ? way : back" }}
+[parameters]
+way = "3 N"
+back = "{} N"
 [simulate]
 stop = "3 s"
-)", 1e-9);
+)toml", back), 1e-9);
   };
-  const RunTable stronger = motion("5 N"), alike = motion("3 N");
+  const RunTable stronger = motion(5), alike = motion(3);
   for (std::size_t row = 0; row < alike.time().size(); ++row) CHECK_LE(std::abs(stronger["x.velocity"][row] - alike["x.velocity"][row]), 1e-9);
   CHECK(alike["x.position"].back() > 0.2);
 }
 
 // A law that resists on the way back alone, beside friction that holds.
 TEST_CASE("a law with a jump at rest has its force at rest while friction holds it") {
-  const RunTable rows = simulate(R"([laws.ratchet]
+  const RunTable rows = simulate(R"toml([laws.ratchet]
 parameters = { P = "1 N" }
 force = "w < 0 ? -P : 0*P"
 [elements]
@@ -69,7 +73,7 @@ fr = { type = "slider", between = ["x", "ground"], coulomb = 3 }
 r  = { type = "ratchet", between = ["x", "ground"] }
 [simulate]
 stop = "2 s"
-)", 1e-6);
+)toml", 1e-6);
   for (std::size_t row = 0; row < rows.time().size(); ++row) CHECK_EQ(rows["r.force"][row], 0);
 }
 
