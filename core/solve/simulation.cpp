@@ -339,16 +339,18 @@ class Run {
     const double end = integrator.time(), length = end - integrator.previous_time();
     if (!inputs_.blocks().has_functions() || integrator.exact() || !settings_.locate_events || !(length > time_roundoff(end))) return false;
     std::vector<double> y, yp, rates;
-    for (int part = 2; part <= numerics::leapt_parts; part *= 2) {
+    bool leaps = false;
+    for (int part = 2; part <= numerics::leapt_parts && !leaps; part *= 2) {
       const double t = end - length / part;
       integrator.interpolate(t, 0, y);
       integrator.interpolate(t, 1, yp);
       system_->consistency.derivative(t, y, rates);
       for (std::size_t i = 0; i < rates.size(); ++i) {
-        if (system_->dae.differential(static_cast<int>(i)) && std::abs(rates[i] - yp[i]) * length > numerics::leapt_change * tolerances_.values()[i]) return true;
+        leaps = leaps || (system_->dae.differential(static_cast<int>(i)) && std::abs(rates[i] - yp[i]) * length > numerics::leapt_change * tolerances_.values()[i]);
       }
     }
-    return false;
+    system_->dae.view(end, integrator.y().data(), integrator.yp().data());
+    return leaps;
   }
 
   /// Goes back to the beginning of the last step, and on in parts of it.
