@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
+
+#include "core/base/numerics.hpp"
 
 namespace rheonet {
 
@@ -84,7 +87,10 @@ Curve::Curve(std::vector<double> times, std::vector<double> values) : times_(std
 Curve::Cubic Curve::from_point(std::size_t i) const {
   const double h = times_[i + 1] - times_[i], secant = (values_[i + 1] - values_[i]) / h;
   const double begins = rates_[i] - secant, ends = rates_[i + 1] - secant;
-  return {.number = i, .tau = 0, .value = values_[i], .rate = rates_[i], .square = -(2 * begins + ends) / h, .cube = (begins + ends) / h / h, .area = areas_[i], .area_of_area = areas_of_areas_[i]};
+  // A curvature that is round-off would make a motion begin backwards.
+  const double negligible = numerics::sum_ulps * std::numeric_limits<double>::epsilon() * (std::abs(rates_[i]) + std::abs(rates_[i + 1]) + std::abs(secant));
+  const auto sum = [negligible](double x) { return std::abs(x) <= negligible ? 0 : x; };
+  return {.number = i, .tau = 0, .value = values_[i], .rate = rates_[i], .square = -sum(2 * begins + ends) / h, .cube = sum(begins + ends) / h / h, .area = areas_[i], .area_of_area = areas_of_areas_[i]};
 }
 
 Curve::Cubic Curve::at(double t) const {

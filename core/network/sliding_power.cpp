@@ -9,12 +9,14 @@ namespace rheonet {
 
 Dual SlidingPower::force(std::span<const double> arguments, int by) const {
   const int side = arguments[0] < 0 ? -1 : 1;
-  if (varying_.empty()) return box_.at(side).sliding;
+  // What a freewheel holds does not move; a velocity there is that of the event at which it stops.
+  const auto finite = [](const Dual& bound) { return std::isfinite(bound.value) ? bound : Dual(0); };
+  if (varying_.empty()) return finite(box_.at(side).sliding);
   std::vector<Dual> values(values_.begin(), values_.end());
   for (std::size_t k = 0; k < varying_.size(); ++k) {
     values[at(varying_[k].parameter)] = {arguments[k + 1], static_cast<int>(k) == by ? 1.0 : 0.0};
   }
-  return component_->box(values).at(side).sliding;
+  return finite(component_->box(values).at(side).sliding);
 }
 
 std::optional<double> SlidingPower::value(std::span<const double> arguments, std::span<const double>) const {
