@@ -20,6 +20,7 @@
 #include "core/solve/global_error_model.hpp"
 #include "core/solve/indeterminate_motion.hpp"
 #include "core/solve/initial_scales.hpp"
+#include "core/solve/leapt_law.hpp"
 #include "core/solve/mode_cache.hpp"
 #include "core/solve/regularisation.hpp"
 #include "core/solve/settling_contacts.hpp"
@@ -284,7 +285,7 @@ class Run {
         outcome = Integrator::Outcome::event;
         view_of_step();
       }
-      if (outcome == Integrator::Outcome::event && leaps_over_a_law()) {
+      if (outcome == Integrator::Outcome::event && settings_.locate_events && leaps_over_law(*system_, tolerances_)) {
         repeat_step(until, shrink);
         continue;
       }
@@ -330,27 +331,6 @@ class Run {
       if (t >= until) return until;
       begin_steps(t, until, shrink);
     }
-  }
-
-  /// Whether the step that an event ends has leapt over a change of a law that its ends do not show, as over the peak of friction just before
-  /// rest: within the step, on the way to the event, the equations then have other rates than the step.
-  bool leaps_over_a_law() {
-    const Integrator& integrator = system_->integrator;
-    const double end = integrator.time(), length = end - integrator.previous_time();
-    if (!inputs_.blocks().has_functions() || integrator.exact() || !settings_.locate_events || !(length > time_roundoff(end))) return false;
-    std::vector<double> y, yp, rates;
-    bool leaps = false;
-    for (int part = 2; part <= numerics::leapt_parts && !leaps; part *= 2) {
-      const double t = end - length / part;
-      integrator.interpolate(t, 0, y);
-      integrator.interpolate(t, 1, yp);
-      system_->consistency.derivative(t, y, rates);
-      for (std::size_t i = 0; i < rates.size(); ++i) {
-        leaps = leaps || (system_->dae.differential(static_cast<int>(i)) && std::abs(rates[i] - yp[i]) * length > numerics::leapt_change * tolerances_.values()[i]);
-      }
-    }
-    system_->dae.view(end, integrator.y().data(), integrator.yp().data());
-    return leaps;
   }
 
   /// Goes back to the beginning of the last step, and on in parts of it.

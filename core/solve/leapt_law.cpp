@@ -1,0 +1,31 @@
+#include "core/solve/leapt_law.hpp"
+
+#include <cmath>
+#include <vector>
+
+#include "core/base/numerics.hpp"
+#include "core/base/roundoff.hpp"
+
+namespace rheonet {
+
+bool leaps_over_law(System& system, const Tolerances& tolerances) {
+  const Integrator& integrator = system.integrator;
+  Dae& dae = system.dae;
+  const double end = integrator.time(), length = end - integrator.previous_time();
+  if (!dae.inputs().blocks().has_functions() || integrator.exact() || !(length > time_roundoff(end))) return false;
+  std::vector<double> y, yp, rates;
+  bool leaps = false;
+  for (int part = 2; part <= numerics::leapt_parts && !leaps; part *= 2) {
+    const double t = end - length / part;
+    integrator.interpolate(t, 0, y);
+    integrator.interpolate(t, 1, yp);
+    system.consistency.derivative(t, y, rates);
+    for (std::size_t i = 0; i < rates.size(); ++i) {
+      leaps = leaps || (dae.differential(static_cast<int>(i)) && std::abs(rates[i] - yp[i]) * length > numerics::leapt_change * tolerances.values()[i]);
+    }
+  }
+  dae.view(end, integrator.y().data(), integrator.yp().data());
+  return leaps;
+}
+
+}  // namespace rheonet
