@@ -250,6 +250,18 @@ void check_impact(const Row& row) {
   CHECK_EQ(tells > 0, collides);  // one for each independent part
 }
 
+TEST_CASE("freewheel: its power, taken in by a block, is 0 through all stops") {
+  const RunTable rows = simulate(R"([elements]
+push = { type = "force", at = "a", force = { sine = 4, frequency = 1 } }
+m = { type = "mass", at = "a", mass = 2 }
+free = { type = "freewheel", between = ["a", "ground"] }
+heat = { type = "integrator", in = "free.power" }
+[simulate]
+stop = 3
+)", 1e-6);
+  for (const double heat : rows["heat.out"]) CHECK_EQ(heat, 0);
+}
+
 }  // namespace
 
 TEST_CASE("freewheel: masses that start with velocities that it forbids go on together") {
