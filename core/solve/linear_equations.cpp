@@ -168,15 +168,19 @@ void LinearEquations::eliminate(const Dae& dae, double slowest) {
 
 double LinearEquations::norm() const { return A_.size() == 0 ? 0 : A_.cwiseAbs().colwise().sum().maxCoeff(); }
 
-bool LinearEquations::too_stiff(double interval) const {
+bool LinearEquations::too_stiff(double interval) {
   if (functions_.fastest() * interval > numerics::arc_steps) return true;
   if (norm() * interval <= numerics::arc_decays) return false;
-  return std::any_of(groups_.begin(), groups_.end(), [&](const StateGroup& group) {
-    const Eigen::VectorXcd rates = MatrixXd(A_(group, group)).eigenvalues();
-    const double fastest = rates.cwiseAbs().maxCoeff(), slowest = rates.cwiseAbs().minCoeff();
-    if (rates.imag().maxCoeff() * interval > numerics::arc_steps) return true;
-    return fastest > numerics::arc_gap * numerics::arc_gap * slowest && -rates.real().minCoeff() * interval > numerics::arc_decays;
-  });
+  if (!extremes_) {
+    extremes_.emplace();
+    for (const StateGroup& group : groups_) {
+      const Eigen::VectorXcd rates = MatrixXd(A_(group, group)).eigenvalues();
+      extremes_->oscillation = std::max(extremes_->oscillation, rates.imag().maxCoeff());
+      const double fastest = rates.cwiseAbs().maxCoeff(), slowest = rates.cwiseAbs().minCoeff();
+      if (fastest > numerics::arc_gap * numerics::arc_gap * slowest) extremes_->mixed_decay = std::max(extremes_->mixed_decay, -rates.real().minCoeff());
+    }
+  }
+  return extremes_->oscillation * interval > numerics::arc_steps || extremes_->mixed_decay * interval > numerics::arc_decays;
 }
 
 VectorXd LinearEquations::drive(const VectorXd& z, const MatrixXd& pushes) const {

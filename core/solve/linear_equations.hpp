@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "core/base/numerics.hpp"
@@ -49,7 +50,7 @@ class LinearEquations {
 
   Eigen::Index states() const { return A_.rows(); }
   /// Whether motions that change fast would cost slow ones their digits in an interval of this length [s], or take forever to follow.
-  bool too_stiff(double interval) const;
+  bool too_stiff(double interval);
   Eigen::MatrixXd pushes(const Eigen::MatrixXd& h) const { return L_ * h; }       ///< L h
   /// z, and below it the pushes of those states that h can push.
   Eigen::VectorXd drive(const Eigen::VectorXd& z, const Eigen::MatrixXd& pushes) const;
@@ -86,6 +87,8 @@ class LinearEquations {
   bool regular_ = false;
   Eigen::MatrixXd A_, L_, of_states_, of_given_;
   std::vector<StateGroup> groups_;
+  struct Extremes { double oscillation = 0, mixed_decay = 0; };  ///< Fastest rates: of oscillations, and of decays that are not separate from slow motions [1/s].
+  std::optional<Extremes> extremes_;
   TimeFunctions functions_;
   std::vector<Eigen::Index> pushed_;  ///< states that the inputs push, ascending
   double shortest_ = 0;  ///< h0 [s]
