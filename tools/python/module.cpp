@@ -15,6 +15,7 @@
 #include "tools/python/reading.hpp"
 #include "tools/python/run.hpp"
 #include "tools/python/studies.hpp"
+#include "tools/python/unlocked.hpp"
 #include "tools/rheonet/chart.hpp"
 
 namespace py = pybind11;
@@ -66,7 +67,7 @@ void add_readings(py::module_& module) {
           },
           py::arg("accuracy"), py::arg("certify"), py::arg("threads"), py::arg("both_sides"), py::arg("progress"))
       .def("explain", &Reading::explanation)
-      .def("schematic", &Reading::schematic, py::call_guard<py::gil_scoped_release>());
+      .def("schematic", &Reading::schematic, py::call_guard<Unlocked>());
 
   py::class_<Source>(module, "Source")
       .def(py::init<std::string, std::optional<std::string>, std::string>(), py::arg("file"), py::arg("text"), py::arg("folder"))
@@ -80,7 +81,7 @@ void add_readings(py::module_& module) {
             return source.read({std::move(overrides), std::move(measures), std::move(library), std::move(records), plotted});
           },
           py::arg("overrides"), py::arg("measures"), py::arg("library"), py::arg("records"), py::arg("plotted"),
-          py::call_guard<py::gil_scoped_release>());
+          py::call_guard<Unlocked>());
 }
 
 void add_studies(py::module_& module) {
@@ -131,7 +132,7 @@ void add_studies(py::module_& module) {
       .def_property_readonly("text", &Sensitivities::text);
 
   module.def("drawn_points", &drawn_points, py::arg("vary"), py::arg("kind"), py::arg("count"), py::arg("seed"), py::arg("correlate"),
-             py::call_guard<py::gil_scoped_release>());
+             py::call_guard<Unlocked>());
   module.def("report", &report, py::arg("readings"), py::arg("accuracy"), py::arg("title"), py::arg("certify"), py::arg("precision"), py::arg("progress"));
 }
 
@@ -148,6 +149,7 @@ PYBIND11_MODULE(_rheonet, module) {
       PyErr_SetString(PyExc_ValueError, text.c_str());
     }
   });
+  rheonet::python::wait_at_exit();
   rheonet::python::add_runs(module);
   rheonet::python::add_readings(module);
   rheonet::python::add_studies(module);

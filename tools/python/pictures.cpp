@@ -84,7 +84,7 @@ Figure draw(const Run& run, const std::string& name, const tool::Arguments::Plot
 py::bytes png_of(const std::string& svg) {
   std::variant<plot::Png, plot::NoPng> made;
   {
-    const py::gil_scoped_release unlocked;
+    const Unlocked unlocked;
     made = plot::png(svg);
   }
   if (const auto* none = std::get_if<plot::NoPng>(&made)) {

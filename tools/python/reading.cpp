@@ -84,7 +84,7 @@ std::unique_ptr<Run> Reading::run(const RunWanted& wanted, const py::object& pro
 std::string Reading::explanation() const {
   std::optional<SimulationError> failure;
   {
-    const py::gil_scoped_release unlocked;
+    const Unlocked unlocked;
     try {
       return tool::to_json(*scene_, explain(*scene_));
     } catch (const SimulationError& error) {

@@ -9,6 +9,8 @@
 #include <future>
 #include <thread>
 
+#include "tools/python/unlocked.hpp"
+
 namespace rheonet::python {
 
 namespace py = pybind11;
@@ -32,10 +34,11 @@ class Watch {
   }
 
   /// Calls `work` without the interpreter lock. `aside`: in another thread, while this one only watches, as is necessary if the
-  /// engine has several threads or does not call `advance` often. Throws what ended the run.
+  /// engine has several threads or does not call `advance` often. Throws what ended the run: SystemExit if the interpreter exits.
   void call(const std::function<void()>& work, bool aside) {
     {
-      const py::gil_scoped_release unlocked;
+      Unlocked unlocked(&interrupt_);
+      unlocked_ = &unlocked;
       if (aside) {
         std::future<void> done = std::async(std::launch::async, work);
         while (done.wait_for(polling_interval) == std::future_status::timeout) look();
@@ -45,20 +48,27 @@ class Watch {
       }
     }
     if (stopped_) std::rethrow_exception(stopped_);
+    end_thread_at_exit();
   }
 
  private:
   void look() {
     if (stopped_) return;
     last_ = std::chrono::steady_clock::now();
-    const py::gil_scoped_acquire locked;
-    try {
-      if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-      if (!progress_.is_none()) progress_(fraction_.load());
-    } catch (...) {
-      stopped_ = std::current_exception();
+    unlocked_->with_lock([this] {
+      const bool goes_on = PyErr_CheckSignals() == 0 && told();
+      if (goes_on) return;
+      stopped_ = std::make_exception_ptr(py::error_already_set());
       interrupt_ = true;
-    }
+    });
+  }
+
+  /// Calls `progress`, with the functions of C as Unlocked::with_lock asks for. False if it raises an exception.
+  bool told() const {
+    if (progress_.is_none()) return true;
+    PyObject* const returned = PyObject_CallFunction(progress_.ptr(), "d", fraction_.load());
+    Py_XDECREF(returned);
+    return returned != nullptr;
   }
 
   const py::object& progress_;
@@ -67,6 +77,7 @@ class Watch {
   std::atomic<bool> interrupt_ = false;
   std::atomic<double> fraction_ = 0;
   std::exception_ptr stopped_;
+  Unlocked* unlocked_ = nullptr;
 };
 
 }  // namespace rheonet::python

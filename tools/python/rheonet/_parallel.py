@@ -1,9 +1,11 @@
 """Runs of a sweep side by side: in threads, or as tasks of a Dask cluster."""
 
 import concurrent.futures
+import itertools
 import math
 import os
 import pathlib
+import queue
 import threading
 import time
 
@@ -18,20 +20,36 @@ SCHEDULED_AT_ONCE = 10_000  # tasks that the scheduler holds: beyond it, tasks a
 
 def in_threads(function, items, jobs):
     """The values of function(item, progress) for each item, in their order. The first error ends the runs that `progress` is given to."""
-    stopped = threading.Event()
+    numbers, finished, stopped = itertools.count(), queue.SimpleQueue(), threading.Event()
 
     def progress(_):
         if stopped.is_set():
             raise concurrent.futures.CancelledError
 
-    with concurrent.futures.ThreadPoolExecutor(jobs or os.cpu_count()) as pool:
-        futures = [pool.submit(function, item, progress) for item in items]
-        try:
-            return [future.result() for future in futures]
-        except BaseException:
-            stopped.set()
-            pool.shutdown(wait=False, cancel_futures=True)
-            raise
+    def work():
+        while not stopped.is_set() and (number := next(numbers)) < len(items):
+            try:
+                finished.put((number, function(items[number], progress), None))
+            except BaseException as error:
+                finished.put((number, None, error))
+
+    # Not a ThreadPoolExecutor: Python waits for its threads at exit, and so for a sweep in a daemon thread.
+    threads = [threading.Thread(target=work, daemon=True) for _ in range(min(jobs or os.cpu_count(), len(items)))]
+    values = [None] * len(items)
+    try:
+        for thread in threads:
+            thread.start()
+        for _ in items:
+            number, value, error = finished.get()
+            if error is not None:
+                raise error
+            values[number] = value
+        return values
+    finally:
+        stopped.set()
+        for thread in threads:
+            if thread.ident is not None:
+                thread.join()
 
 
 class Rows(dict):
