@@ -66,6 +66,26 @@ def test_a_sweep_of_measures():
     np.testing.assert_allclose(data["time of crossing(s1.force, 0.02 N)"], np.arcsin(0.1) / (2 * np.pi), rtol=1e-5)
 
 
+@pytest.mark.parametrize(
+    ("values", "expected", "unit"),
+    [
+        (["1*Tc", "3/2*Tc"], ["1*Tc", "3/2*Tc"], None),
+        (["Tc*0.5", "0.1 N"], ["Tc*0.5", "0.1 N"], None),
+        (["10-2", "1/2", "2^-1", "1e-1*2"], [8, 0.5, 0.5, 0.2], None),
+        (["3/2", 2, "0.25"], [1.5, 2, 0.25], None),
+        (["1 N", "2.5 N"], [1, 2.5], "N"),
+        (["1 N", "10 cN"], ["1 N", "10 cN"], None),
+        (["1 N", 2], ["1 N", "2"], None),
+    ],
+)
+def test_coordinates_are_the_values_of_the_runs(values, expected, unit):
+    text = FRICTION.replace('"0.1 N" }\n[sim', '"Tc" }\n[parameters]\nTc = "0.07 N"\n[sim')
+    data = rheonet.loads(text, {"k1.stiffness": 1e5}).sweep({"s1.coulomb": values}, "max(s1.force)")
+    assert data["s1.coulomb"].values.tolist() == expected and data["s1.coulomb"].attrs.get("units") == unit
+    if not isinstance(expected[0], str):
+        np.testing.assert_allclose(data["max(s1.force)"], expected, rtol=1e-4)
+
+
 def test_a_sweep_keeps_to_the_file_that_was_loaded(tmp_path):
     file = tmp_path / "friction.toml"
     file.write_text(FRICTION)

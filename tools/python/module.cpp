@@ -131,6 +131,7 @@ void add_studies(py::module_& module) {
       .def_property_readonly("largest", &Sensitivities::largest)
       .def_property_readonly("text", &Sensitivities::text);
 
+  module.def("evaluated", &evaluated, py::arg("text"));
   module.def("drawn_points", &drawn_points, py::arg("vary"), py::arg("kind"), py::arg("count"), py::arg("seed"), py::arg("correlate"),
              py::call_guard<Unlocked>());
   module.def("report", &report, py::arg("readings"), py::arg("accuracy"), py::arg("title"), py::arg("certify"), py::arg("precision"), py::arg("progress"));

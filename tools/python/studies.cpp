@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <variant>
 
+#include "core/netlist/expression.hpp"
 #include "tools/python/diagnostics.hpp"
 #include "tools/python/watch.hpp"
 #include "tools/rheonet/arguments.hpp"
@@ -125,6 +126,13 @@ std::vector<std::vector<std::string>> drawn_points(const std::vector<std::string
   std::vector<std::vector<std::string>> points;
   for (long run = 0; run < design.runs(); ++run) points.push_back(design.point(run));
   return points;
+}
+
+std::optional<std::pair<double, bool>> evaluated(const std::string& text) {
+  const auto read = evaluate_text(text, Environment{});
+  const Number* number = std::get_if<Number>(&read);
+  if (!number) return {};
+  return std::pair{number->value, !number->plain};
 }
 
 Effects::Effects(const Reading& reading, int runs, const py::object& progress) : file_(reading.file()), scene_(reading.scene()) {

@@ -44,6 +44,9 @@ class Comparison {
 std::vector<std::vector<std::string>> drawn_points(const std::vector<std::string>& vary, const std::string& kind, long count, std::uint64_t seed,
                                                    const std::vector<std::string>& correlate);
 
+/// The number in a text without reference to other values, in SI, and whether it has a unit; absent if the text is no number.
+std::optional<std::pair<double, bool>> evaluated(const std::string& text);
+
 /// The contribution of each physical effect.
 class Effects {
  public:

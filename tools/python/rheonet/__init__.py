@@ -125,7 +125,7 @@ class Scene:
         client: a dask.distributed.Client, on whose workers the runs are simulated; they have to find the same files.
 
         Returns an xarray.Dataset with a dimension and a coordinate for each parameter: numbers if all values have one unit (in
-        the attribute "units"; absent for numbers without a unit, which are SI), else text. It holds either the measures, or
+        the attribute "units"; absent for numbers and expressions without a unit, which are SI), else text. It holds either the measures, or
         the records with the further dimension "time". Raises NetlistError and SimulationError like load() and run(), and
         ValueError if the rows of two runs are at different times.
         """

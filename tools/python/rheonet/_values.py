@@ -5,6 +5,8 @@ import numbers
 import re
 from collections.abc import Mapping
 
+from . import _rheonet
+
 
 def setting(value):
     """A value as after `--set PATH=`, where text stands without quotes."""
@@ -41,16 +43,25 @@ def toml_of(tables):
     return "\n".join(plain) + "\n"
 
 
-value_and_unit = re.compile(r"\s*([-+]?[0-9.]+(?:[eE][-+]?[0-9]+)?)\s*(.*?)\s*")
+# As the netlist reads it: a number, a space and a unit, which does not begin with an operator.
+quantity = re.compile(r"\s*([-+]?[0-9.]+(?:[eE][-+]?[0-9]+)?)(?:\s+([^-+*/^<>=!&|?:,.)].*?))?\s*")
 
 
 def coordinate(path, values):
-    """The values of a parameter as an xarray coordinate: numbers if all have the same unit."""
-    matches = [value_and_unit.fullmatch(value) for value in values if isinstance(value, str)]
-    if not matches:
+    """The values of a parameter as an xarray coordinate: numbers if all have the same unit, or are expressions of numbers without a unit, and else
+    text."""
+    texts = [value for value in values if isinstance(value, str)]
+    all_scalar = all(isinstance(value, (str, numbers.Real)) for value in values)
+    if not texts and all_scalar:
         return (path, values)
+    evaluated = [_rheonet.evaluated(text) for text in texts]  # in SI, and whether it has a unit; None for a text that is no number
+    if not all_scalar or None in evaluated:
+        return (path, [setting(value) for value in values])
+    if not any(has_unit for _, has_unit in evaluated):
+        in_order = iter(evaluated)
+        return (path, [next(in_order)[0] if isinstance(value, str) else float(value) for value in values])
+    matches = [quantity.fullmatch(text) for text in texts]
     units = {match and match[2] for match in matches}
-    if len(matches) < len(values) or len(units) > 1 or None in units:
-        return (path, [str(value) for value in values])
-    unit = units.pop()
-    return (path, [float(match[1]) for match in matches], {"units": unit} if unit else {})
+    if len(texts) < len(values) or len(units) > 1 or None in units:
+        return (path, [setting(value) for value in values])
+    return (path, [float(match[1]) for match in matches], {"units": units.pop()})
