@@ -204,6 +204,29 @@ TEST_CASE("sweep: the file is the same however many run side by side, and after 
   CHECK(folder.read("rows.csv") == all);
 }
 
+TEST_CASE("sweep: a resumed or merged file with failed runs has status 1, and their number is that of the whole file") {
+  const Folder folder(overcome);
+  for (const std::string& columns : {std::string("--measure 'max(k1.force)' "), std::string()}) {
+    const std::string sweep = "rheonet sweep scene.toml --vary s2.coulomb=-1,2,-3,4,-5,6 " + columns;
+    folder.shell(sweep + "-o whole.csv -q", 1);
+    const std::string whole = folder.read("whole.csv");
+    for (std::size_t bytes = whole.find('\n') + 1; bytes <= whole.size(); bytes += whole.size() / 9 + 1) {
+      CAPTURE(bytes);
+      folder.write("cut.csv", whole.substr(0, bytes));
+      const std::string err = folder.shell(sweep + "-o cut.csv --resume", 1).err;
+      CHECK(folder.read("cut.csv") == whole);
+      CHECK((contains(err, "of all 6 runs 3 failed: `error` says why") || contains(err, "6 runs, of which 3 failed")));
+    }
+    // Shard 1 of 3 has a failed run, the first of its two.
+    const std::string shard = sweep + "--shard 1/3 -o part-1.csv ";
+    folder.shell(shard + "-q", 1);
+    CHECK(contains(folder.shell(shard + "--resume", 1).err, "of all 2 runs 1 failed"));
+    folder.shell(sweep + "--shard 2/3 -o part-2.csv -q; " + sweep + "--shard 3/3 -o part-3.csv -q", 1);
+    CHECK(contains(folder.shell(sweep + "--merge part-*.csv -o merged.csv", 1).err, "6 runs from 3 shards, of which 3 failed"));
+    CHECK(folder.read("merged.csv") == whole);
+  }
+}
+
 TEST_CASE("sweep: what is not of this sweep is not gone on with, and not lost") {
   const Folder folder(oscillator);
   folder.shell("rheonet " + many + "-o sweep.csv -q", 0);

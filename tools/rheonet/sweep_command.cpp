@@ -59,6 +59,8 @@ class SweepJob {
   bool close();
   bool write_statistics();
   void summarize(const Left& left, double wall) const;
+  /// The failed runs of the file.
+  long failed() const { return earlier_failures_ + sweep_.failed(); }
 
   const Arguments& arguments_;
   const SweepArguments& options_;
@@ -71,7 +73,7 @@ class SweepJob {
   std::unique_ptr<Output> output_;
   int jobs_ = 1;
   std::chrono::steady_clock::time_point flushed_;
-  long merged_failures_ = 0;  ///< Rows of failed runs in merged shards.
+  long earlier_failures_ = 0;  ///< Failed runs in merged shards, or in the file that is resumed.
 };
 
 /// The rows of an interrupted sweep. The last run is simulated again: equal rows show that the scene and the program have not changed.
@@ -154,9 +156,9 @@ bool SweepJob::merge() {
     }
   bool is_header = true;
   const auto take = [&](const std::string& lines) {
-    if (!is_header)  // The last cell of a row has the reason why the run failed.
-      for (std::size_t end = lines.find('\n'); end != lines.npos; end = lines.find('\n', end + 1))
-        if (end > 0 && lines[end - 1] != ',') ++merged_failures_;
+    if (!is_header)
+      for (std::size_t begin = 0, end = 0; (end = lines.find('\n', begin)) != lines.npos; begin = end + 1)
+        if (is_of_failed_run(std::string_view(lines).substr(begin, end + 1 - begin))) ++earlier_failures_;
     return write(lines, !std::exchange(is_header, false));
   };
   const auto merged = merge_shards(options_.merge, runs_, identity_, sweep_.header(), take);
@@ -183,15 +185,17 @@ bool SweepJob::write_statistics() {
 }
 
 void SweepJob::summarize(const Left& left, double wall) const {
+  const bool goes_on = left.runs > first_;
+  const std::string failures = failed() == 0 ? "" : fmt::format(", of {} failed: `error` says why", goes_on ? fmt::format("all {} runs {}", behind_ - first_, failed()) : fmt::format("which {}", failed()));
   if (!options_.merge.empty()) {
-    say("{}: {} runs from {} shard{}\n  rows         {:>12}  to {}\n", printable(arguments_.scene), runs_, options_.merge.size(), options_.merge.size() == 1 ? "" : "s", output_->rows(), output_->name());
+    say("{}: {} runs from {} shard{}{}\n", printable(arguments_.scene), runs_, options_.merge.size(), options_.merge.size() == 1 ? "" : "s", failures);
+    say("  rows         {:>12}  to {}\n", output_->rows(), output_->name());
   } else {
     const double cpu = process_cpu_seconds(), simulating = sweep_.simulating();
     const long done = behind_ - left.runs;
     say("{}: {} run{}{}{}{}\n", printable(arguments_.scene), done, done == 1 ? "" : "s",
         options_.shard ? fmt::format(" of shard {}/{}", shard_.number, shard_.of) : "",
-        left.runs > first_ ? fmt::format(" more, from run {} on", left.runs + 1) : "",
-        sweep_.failed() > 0 ? fmt::format(", of which {} failed: `error` says why", sweep_.failed()) : "");
+        goes_on ? fmt::format(" more, from run {} on", left.runs + 1) : "", failures);
     say("  rows         {:>12}  to {}\n", output_->rows() - (options_.shard ? 2 : 0), output_->name());
     say("  wall time    {:>12}  {} at a time\n", in_time_units(wall), jobs_);
     say("  CPU time     {:>12}  {} in the simulations\n", in_time_units(cpu), in_time_units(simulating));
@@ -206,6 +210,7 @@ ExitStatus SweepJob::go() {
     auto found = this->left();
     if (const auto* wrong = std::get_if<NoVariation>(&found)) return refuse(*wrong);
     left = std::get<Left>(std::move(found));
+    earlier_failures_ = left.failed - sweep_.failed();  // the run that was simulated to check the file is simulated again
     if (!take_left(left)) return wrong_input;
   }
   const bool as_it_comes = options_.merge.empty() && !table_format(arguments_.output);
@@ -223,8 +228,7 @@ ExitStatus SweepJob::go() {
   const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (statistics_ && !write_statistics()) return not_simulated;
   if (!arguments_.quiet) summarize(left, wall);
-  const bool failed = sweep_.failed() > 0 || merged_failures_ > 0 || (statistics_ && statistics_->failed() > 0);
-  return failed ? not_simulated : done;
+  return failed() > 0 ? not_simulated : done;
 }
 
 /// The error of options that exclude each other.

@@ -10,6 +10,8 @@
 
 namespace rheonet::tool {
 
+bool is_of_failed_run(std::string_view row) { return !row.ends_with(",\n"); }
+
 std::variant<Left, NoVariation> what_is_left(const std::string& file, const Expected& expected) {
   Left left;
   left.runs = expected.first;
@@ -51,6 +53,7 @@ std::variant<Left, NoVariation> what_is_left(const std::string& file, const Expe
       if (count == 0 || ++run >= expected.behind) return other(number, fmt::format("does not begin with `{}`", begin));
       left.runs = run;
       left.bytes += left.last.size();
+      if (is_of_failed_run(left.last)) ++left.failed;
       left.lines += count;
       left.last.clear();
       count = 0;

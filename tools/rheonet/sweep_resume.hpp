@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <string>
+#include <string_view>
 #include <variant>
 
 #include "tools/rheonet/variation.hpp"
@@ -13,6 +14,7 @@ struct Left {
   long runs = 0;          ///< Runs before this number are complete.
   std::size_t bytes = 0;  ///< Size of the complete runs and of the lines before them.
   long lines = 0;
+  long failed = 0;  ///< Of the complete runs, those that failed.
   std::string last;  ///< Text after the complete runs: the last run, whose end may be missing.
 };
 
@@ -24,6 +26,9 @@ struct Expected {
   long first = 0, behind = 0;  ///< Runs first .. behind - 1, counted from 0.
   std::function<std::string(long run)> key;  ///< The cells that each row of a run begins with.
 };
+
+/// Whether a row of a sweep's table is that of a failed run: its last cell has the reason.
+bool is_of_failed_run(std::string_view row);
 
 /// Reads the file run by run. Returns a NoVariation if it is not the beginning of the expected table.
 std::variant<Left, NoVariation> what_is_left(const std::string& file, const Expected& expected);
