@@ -2,6 +2,7 @@
 
 import os
 import pathlib
+import resource
 
 import numpy as np
 import pytest
@@ -67,6 +68,28 @@ def test_a_full_disk(scene):
     os.chdir("/")
     with pytest.raises(ValueError, match="saved as .svg or .png"):
         figure.save(full)
+
+
+@pytest.mark.parametrize("ending", ["svg", "html"])
+def test_a_full_disk_leaves_the_earlier_file(scene, tmp_path, monkeypatch, ending):
+    monkeypatch.chdir(tmp_path)
+    saved = scene.plot("s1.force") if ending == "svg" else scene.report()
+    name = f"ü-{ending}.{ending}"
+    file = pathlib.Path(name)
+    file.write_text("earlier")
+    soft, hard = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (1000, hard))
+    try:
+        with pytest.raises(OSError, match="too large") as error:
+            saved.save(name)
+        with pytest.raises(OSError):
+            saved.save(tmp_path / "missing" / name)
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, (soft, hard))
+    assert error.value.filename == name
+    assert file.read_text() == "earlier" and os.listdir() == [name]
+    saved.save(file)
+    assert file.read_text(encoding="utf-8") == (saved.svg if ending == "svg" else saved.html)
 
 
 def test_an_error_in_progress_ends_a_study(scene):

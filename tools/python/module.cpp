@@ -48,6 +48,7 @@ void add_runs(py::module_& module) {
         return curves;
       });
   module.def("png", &png_of, py::arg("svg"));
+  module.def("write_file", [](const py::bytes& path, const py::bytes& content) { return write_file(path, content); }, py::arg("path"), py::arg("content"));
   module.def("records_to_plot", [](const py::kwargs& options) { return tool::records_of(plot_options(options)); });
 }
 

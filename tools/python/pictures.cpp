@@ -3,7 +3,9 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <stdexcept>
+#include <system_error>
 #include <variant>
 
 #include "tools/plot/compose.hpp"
@@ -12,6 +14,7 @@
 #include "tools/python/watch.hpp"
 #include "tools/report/document.hpp"
 #include "tools/rheonet/chart.hpp"
+#include "tools/rheonet/output.hpp"
 #include "tools/rheonet/scene_report.hpp"
 #include "tools/web/assets.hpp"
 
@@ -92,6 +95,17 @@ py::bytes png_of(const std::string& svg) {
     throw py::error_already_set();
   }
   return py::bytes(std::get<plot::Png>(made).bytes);
+}
+
+int write_file(const std::string& path, const std::string& content) {
+  const Unlocked unlocked;
+  try {
+    tool::Output output(path, tool::Output::Writing::complete);
+    std::fwrite(content.data(), 1, content.size(), output.file());
+    return output.close();
+  } catch (const std::system_error& error) {
+    return error.code().value();
+  }
 }
 
 py::tuple report(const std::vector<const Reading*>& readings, std::optional<double> accuracy, const std::string& title, bool certify, bool precision,

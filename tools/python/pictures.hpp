@@ -31,6 +31,9 @@ Figure draw(const Run& run, const std::string& name, const tool::Arguments::Plot
 /// The bytes of a PNG. Raises OSError if no converter is installed.
 py::bytes png_of(const std::string& svg);
 
+/// Replaces a file as the commands do: only when the new one is complete. Returns the error (errno) or 0.
+int write_file(const std::string& path, const std::string& content);
+
 /// The HTML of `rheonet report`, and the failures of its scenes. Raises RuntimeError if rheonet was built without the page.
 py::tuple report(const std::vector<const Reading*>& readings, std::optional<double> accuracy, const std::string& title, bool certify, bool precision,
                  const py::object& progress);

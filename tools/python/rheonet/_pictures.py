@@ -15,6 +15,13 @@ def image(svg, description):
     return f'<img src="data:image/svg+xml;base64,{data}" alt="{html.escape(description)}" style="max-width: 100%">'
 
 
+def _write(path, content):
+    """Replaces a file when the new one is complete: if the disk is full the earlier file stays."""
+    error = _rheonet.write_file(os.fsencode(os.path.abspath(path)), content)
+    if error:
+        raise OSError(error, os.strerror(error), os.fspath(path))
+
+
 class Figure:
     """A drawing of curves, as `rheonet plot` makes it."""
 
@@ -29,11 +36,11 @@ class Figure:
 
     def save(self, path):
         """Writes the drawing to a file: `.svg`, or `.png` where librsvg's `rsvg-convert` is installed. Raises ValueError for
-        another ending, OSError if the file cannot be written or `rsvg-convert` is missing."""
+        another ending, OSError if the file cannot be written, and an earlier one stays then, or if `rsvg-convert` is missing."""
         ending = pathlib.Path(path).suffix
         if ending not in (".svg", ".png"):
             raise ValueError(f"a figure is saved as .svg or .png, not as {os.fspath(path)!r}")
-        pathlib.Path(path).write_bytes(self._svg.encode() if ending == ".svg" else _rheonet.png(self._svg))
+        _write(path, self._svg.encode() if ending == ".svg" else _rheonet.png(self._svg))
 
     def _repr_html_(self):
         return image(self._svg, "figure")
@@ -60,8 +67,8 @@ class Report:
         return list(self._failures)
 
     def save(self, path):
-        """Writes the page to a file. Raises OSError if it cannot be written."""
-        pathlib.Path(path).write_text(self._html, encoding="utf-8")
+        """Writes the page to a file. Raises OSError if it cannot be written; an earlier file stays then."""
+        _write(path, self._html.encode())
 
     def _repr_html_(self):
         return f'<iframe srcdoc="{html.escape(self._html)}" style="width: 100%; height: 80vh; border: 0"></iframe>'
