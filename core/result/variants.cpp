@@ -34,7 +34,7 @@ struct Glance {
   bool switches = false;
 };
 
-Glance look(const Scene& scene) {
+Glance look(const Scene& scene, const std::atomic<bool>* interrupt) {
   Scene some = scene;
   some.records.clear();
   some.exact.clear();
@@ -51,7 +51,7 @@ Glance look(const Scene& scene) {
   const auto see = [&](double, const std::vector<double>& values) {
     for (std::size_t k = 0; k < elements.size(); ++k) result.fastest[elements[k]] = std::max(result.fastest[elements[k]], std::abs(values[k]));
   };
-  result.switches = run(some, {.state = see, .tolerance = numerics::preview_accuracy}).restarts > 1;
+  result.switches = run(some, {.state = see, .interrupt = interrupt, .tolerance = numerics::preview_accuracy}).restarts > 1;
   return result;
 }
 
@@ -86,8 +86,8 @@ std::vector<std::string> worthwhile_reductions(const Scene& scene) {
 
 }  // namespace
 
-std::vector<SimulationMethod> methods(const Scene& scene) {
-  const Glance glance_at = look(scene);
+std::vector<SimulationMethod> methods(const Scene& scene, const std::atomic<bool>* interrupt) {
+  const Glance glance_at = look(scene, interrupt);
   std::vector<SimulationMethod> result;
   for (const int order : {5, 4, 3, 2}) result.push_back({.name = fmt::format("order up to {}", order), .order = order});
   if (glance_at.switches) result.push_back({.name = "events at the ends of steps", .locate_events = false});

@@ -1,5 +1,6 @@
 """What is wrong is said by an exception whose text would mend it."""
 
+import functools
 import os
 import pathlib
 import resource
@@ -8,7 +9,7 @@ import numpy as np
 import pytest
 
 import rheonet
-from test_scene import FRICTION, OSCILLATOR
+from test_scene import FRICTION, OSCILLATOR, endless
 
 
 @pytest.fixture
@@ -97,6 +98,7 @@ def test_an_error_in_progress_ends_a_study(scene):
         raise ZeroDivisionError("of the caller")
 
     slow = rheonet.loads(FRICTION, {"simulate.stop": 1e4, "simulate.method": "ida"})
-    for study in (slow.run, lambda **more: slow.compare(slow, **more), slow.effects, slow.precision):
+    variants = functools.partial(endless().precision, [1e-4], runs=1, variants=True)
+    for study in (slow.run, lambda **more: slow.compare(slow, **more), slow.effects, slow.precision, variants):
         with pytest.raises(ZeroDivisionError, match="of the caller"):
             study(progress=fail)

@@ -133,6 +133,32 @@ def test_jupyter_shows_schematic_and_table():
     assert repr(scene.run()) == "<rheonet.Result 'An oscillator': 2 records, 201 rows>"
 
 
+CHAIN = """
+[elements]
+drive = { type = "motion", at = "first", position = { sine = "1 mm", frequency = "1 Hz" } }
+[elements.chain]
+repeat = { count = 40000, as = "i", arrange = "series" }
+type = "link"
+between = ["first", "last"]
+[models.link]
+ports = ["a", "b"]
+[models.link.elements]
+k = { type = "spring", between = ["a", "b"], stiffness = "1000 N/m" }
+c = { type = "dashpot", between = ["a", "b"], damping = "1 N*s/m" }
+m = { type = "mass", at = "b", mass = "1 g" }
+[simulate]
+stop = 1
+record = ["drive.force"]
+"""
+
+
+def test_a_long_chain_is_drawn_at_once():
+    scene = rheonet.loads(CHAIN)
+    began = time.process_time()
+    assert scene._repr_html_() is not None
+    assert time.process_time() - began < 4
+
+
 def test_a_netlist_as_a_dictionary_points_to_the_entry():
     with pytest.raises(rheonet.NetlistError) as caught:
         rheonet.load({**OSCILLATOR, "elements": {**OSCILLATOR["elements"], "d1": {"type": "dashpod", "at": "ä \"quoted\"\\"}}})

@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -82,6 +83,11 @@ TEST_CASE("events that are not located are late, by no more than a step") {
   for (const std::vector<double>& row : exact.rows) CHECK(row[0] >= 0);
   CHECK(least <= 0);
   CHECK(trajectory.rows.back()[0] == 0);
+}
+
+TEST_CASE("an interrupt ends the run that finds the variants") {
+  const std::atomic<bool> interrupt = true;
+  CHECK_THROWS_AS(methods(scene_of(sliding(Fc)), &interrupt), SimulationError);
 }
 
 TEST_CASE("nothing is varied that the scene does not have") {

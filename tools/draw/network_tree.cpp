@@ -180,9 +180,8 @@ class Reduction {
     if (v.edges.size() != 2 || (branches && stage < with_branches) || (v.driven && stage < driven_too)) return false;
     int before = v.edges[0], behind = v.edges[1];
     if (other_end(before, n) == other_end(behind, n)) return merge_parallel(n);
-    // A long row grows at its end, which costs least.
-    if (edge(behind).to == n && edge(behind).block.parts.size() > edge(before).block.parts.size())
-      std::swap(before, behind);
+    // A long row grows at its end, which costs least: each part that is put before it moves all others.
+    if (edge(behind).block.parts.size() > edge(before).block.parts.size()) std::swap(before, behind);
     const NodeId from = other_end(before, n), to = other_end(behind, n);
     Block second = take_edge(behind, n), first = take_edge(before, from);
     add_edge({from, to, Block::in_series(std::move(first), station(n), std::move(second))});

@@ -193,9 +193,8 @@ Precision::Precision(const Reading& reading, const Wanted& wanted, const py::obj
       progress,
       [&](Watch& watch) {
         PriceListSettings settings = tool::settings_of(
-            scene_, {.accuracies = wanted.accuracies, .variants = wanted.variants, .certified = wanted.certified, .models = std::move(models)});
+            scene_, {.accuracies = wanted.accuracies, .variants = wanted.variants, .certified = wanted.certified, .models = std::move(models)}, watch.interrupt());
         settings.runs = wanted.runs;
-        settings.interrupt = watch.interrupt();
         settings.progress = [&](double fraction) { watch.advance(fraction); };
         list_ = price_list(scene_, settings);
       },

@@ -52,9 +52,8 @@ ExitStatus price_scene(const Arguments& arguments) {
     PriceListSettings settings = settings_of(scene, {.accuracies = arguments.accuracies,
                                                      .variants = arguments.variants,
                                                      .certified = arguments.certified,
-                                                     .models = std::move(*asked)});
+                                                     .models = std::move(*asked)}, &end_on_signals());
     settings.runs = arguments.runs;
-    settings.interrupt = &end_on_signals();
     settings.progress = progress;
     list = price_list(scene, settings);
   });

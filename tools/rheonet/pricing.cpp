@@ -37,12 +37,12 @@ std::vector<SimulationMethod> methods_of(std::vector<Variant> variants, Scene& s
   return methods;
 }
 
-PriceListSettings settings_of(const Scene& scene, PricingWanted wanted) {
-  PriceListSettings settings{.tolerances = std::move(wanted.accuracies)};
+PriceListSettings settings_of(const Scene& scene, PricingWanted wanted, const std::atomic<bool>* interrupt) {
+  PriceListSettings settings{.tolerances = std::move(wanted.accuracies), .interrupt = interrupt};
   std::vector<double>& tolerances = settings.tolerances;
   if (tolerances.empty()) tolerances = {1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11};
   if (std::find(tolerances.begin(), tolerances.end(), scene.accuracy) == tolerances.end()) tolerances.push_back(scene.accuracy);
-  if (wanted.variants) settings.methods = methods(scene);
+  if (wanted.variants) settings.methods = methods(scene, interrupt);
   if (!not_linear(scene)) settings.methods.push_back({.name = "exact arcs", .method = Scene::Method::exact});
   if (wanted.certified) settings.methods.push_back({.name = "certified", .certified = true});
   std::move(wanted.models.begin(), wanted.models.end(), std::back_inserter(settings.methods));

@@ -29,7 +29,8 @@ struct PricingWanted {
   std::vector<SimulationMethod> models = {}; ///< See methods_of.
 };
 
-/// The tolerances and methods of a price list. Runs the scene if `variants` are asked for; throws SimulationError then.
-PriceListSettings settings_of(const Scene& scene, PricingWanted wanted);
+/// The tolerances, the methods and the interrupt of a price list. Runs the scene if `variants` are asked for; throws SimulationError then, also
+/// when `interrupt` is set to true.
+PriceListSettings settings_of(const Scene& scene, PricingWanted wanted, const std::atomic<bool>* interrupt);
 
 }  // namespace rheonet::tool
