@@ -53,21 +53,37 @@ std::optional<std::string> read_text(const fs::path& file, std::string& why) {
 
 std::optional<std::string> FileCache::text_of(const fs::path& file, std::string& why) {
   const std::scoped_lock lock(mutex_);
-  const auto known = texts_.find(file);
-  if (known != texts_.end()) return known->second;
+  const auto known = contents_.texts.find(file);
+  if (known != contents_.texts.end()) return known->second;
   auto text = read_text(file, why);
-  if (text) texts_.emplace(file, *text);
+  if (text) contents_.texts.emplace(file, *text);
   return text;
+}
+
+bool FileCache::has(const fs::path& file) {
+  const std::scoped_lock lock(mutex_);
+  return contents_.texts.contains(file);
 }
 
 fs::path FileCache::canonical(const fs::path& path, std::error_code& failed) {
   const std::scoped_lock lock(mutex_);
-  const auto known = canonical_.find(path);
+  const auto known = contents_.canonical.find(path);
   failed.clear();
-  if (known != canonical_.end()) return known->second;
+  if (known != contents_.canonical.end()) return known->second;
   fs::path found = fs::canonical(path, failed);
-  if (!failed) canonical_.emplace(path, found);
+  if (!failed) contents_.canonical.emplace(path, found);
   return found;
+}
+
+FileCache::Contents FileCache::contents() {
+  const std::scoped_lock lock(mutex_);
+  return contents_;
+}
+
+void FileCache::add(Contents contents) {
+  const std::scoped_lock lock(mutex_);
+  contents_.texts.merge(contents.texts);
+  contents_.canonical.merge(contents.canonical);
 }
 
 std::shared_ptr<const TomlValue> FileCache::document(int file, const Sources& sources, DiagnosticList& diagnostics) {

@@ -26,16 +26,26 @@ class FileCache {
   /// As read_text.
   std::optional<std::string> text_of(const std::filesystem::path& file, std::string& why);
 
+  /// Whether the file has been read.
+  bool has(const std::filesystem::path& file);
+
   /// As std::filesystem::canonical.
   std::filesystem::path canonical(const std::filesystem::path& path, std::error_code& failed);
+
+  /// What was read so far, to give it to the cache of another process.
+  struct Contents {
+    std::map<std::filesystem::path, std::string> texts;
+    std::map<std::filesystem::path, std::filesystem::path> canonical;
+  };
+  Contents contents();
+  void add(Contents contents);
 
   /// As parse_toml: nullptr after a mistake.
   std::shared_ptr<const TomlValue> document(int file, const Sources& sources, DiagnosticList& diagnostics);
 
  private:
   std::mutex mutex_;
-  std::map<std::filesystem::path, std::string> texts_;
-  std::map<std::filesystem::path, std::filesystem::path> canonical_;
+  Contents contents_;
   std::map<std::pair<int, std::string>, std::shared_ptr<const TomlValue>> documents_;  ///< by number and text of a file
 };
 

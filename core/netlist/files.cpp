@@ -61,7 +61,7 @@ std::optional<Files::Found> Files::find_on_disk(const TomlValue& name, const Pla
       diagnostics.error(name.spot, "`" + name.text + "` is a link that leads outside the netlist's folder", rule);
       return {};
     }
-    if (!fs::is_regular_file(found, failed)) {
+    if (!(cache_ && cache_->has(found)) && !fs::is_regular_file(found, failed)) {
       diagnostics.error(name.spot, "`" + name.text + "` is no file");
       return {};
     }

@@ -76,6 +76,27 @@ def test_a_killed_worker_loses_nothing(cluster, scene):
 
 def test_an_error_says_which_run(cluster, scene):
     with pytest.raises(rheonet.NetlistError) as error:
-        scene.sweep({"k1.k": [100, 200, -3]}, "min(a.position)", client=cluster)
+        scene.sweep({"k1.k": [100, 200, -3]}, "min(a.position)", client=cluster, on_error="raise")
     assert "in the run with {'k1.k': -3}" in error.value.__notes__
     assert "must be" in error.value.message
+
+
+def test_a_failed_run_is_that_of_threads(cluster, scene):
+    for measure in (None, "min(a.position)"):
+        with pytest.warns(RuntimeWarning, match="1 of 3 runs failed"):
+            found = scene.sweep({"k1.k": [100, -3, 200]}, measure, client=cluster)
+        with pytest.warns(RuntimeWarning, match="1 of 3 runs failed"):
+            assert found.identical(scene.sweep({"k1.k": [100, -3, 200]}, measure))
+
+
+def test_files_are_those_that_were_loaded(cluster, scene, tmp_path):
+    expected = scene.sweep(VALUES, "min(a.position)")
+    (tmp_path / "scene.toml").write_text(SCENE.replace("1 mm", "2 mm"))
+    (tmp_path / "spring.toml").write_text("")
+    assert scene.sweep(VALUES, "min(a.position)", client=cluster).identical(expected)
+    assert cluster.submit(lambda scene: float(scene.run()["a.position"].min()), scene).result() == scene.run()["a.position"].min()
+
+
+def test_a_client_that_is_none(scene):
+    with pytest.raises(TypeError, match="client must be a dask.distributed.Client, but is 3"):
+        scene.sweep(VALUES, "min(a.position)", client=3)

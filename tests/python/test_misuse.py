@@ -46,10 +46,40 @@ def test_wrong_arguments(scene):
         ({"accuracy": 1.0}, ValueError, "from 1e-12 to 0.1"),
         ({"threads": 0}, ValueError, "threads must be at least 1"),
         ({"threads": 1.5}, TypeError, "threads must be a whole number"),
+        ({"threads": 10**12}, ValueError, "threads must be at most 2147483647, but is 1000000000000"),
+        ({"certify": "no"}, TypeError, "certify must be True or False"),
         ({"progress": 3}, TypeError, "progress must be a function"),
     ):
         with pytest.raises(kind, match=text):
             scene.run(**wrong)
+    drawn = {"k1.stiffness": "100:200"}
+    for study, kind, text in (
+        (lambda: scene.sample(drawn, 4, "max(s1.force)", seed=-1), ValueError, "seed must be at least 0, but is -1"),
+        (lambda: scene.sample(drawn, 2.5, "max(s1.force)"), TypeError, "count must be a whole number, but is 2.5"),
+        (lambda: scene.sample(drawn, 4, [3]), TypeError, "measure must be text or a list of text, as .*, not .3."),
+        (lambda: scene.sample({"k1.stiffness": 3}, 4, "max(s1.force)"), TypeError, "the distribution of 'k1.stiffness' must be text, not 3"),
+        (lambda: scene.sample(drawn, 4, "max(s1.force)", correlations={"a,b": 0.5}), TypeError, "the keys of correlations must be pairs of paths"),
+        (lambda: scene.sample(drawn, 4, "max(s1.force)", correlations=[0.5]), TypeError, "correlations must be a dictionary"),
+        (lambda: scene.sweep({"k1.stiffness": [1]}, jobs=-1), ValueError, "jobs must be at least 1, but is -1"),
+        (lambda: scene.sweep({"k1.stiffness": [1]}, jobs="2"), TypeError, "jobs must be a whole number, but is '2'"),
+        (lambda: scene.sweep({"k1.stiffness": [1]}, measure=3), TypeError, "measure must be text or a list of text"),
+        (lambda: scene.sweep({"k1.stiffness": [1]}, client=3), TypeError, "client must be a dask.distributed.Client, but is 3"),
+        (lambda: scene.sweep([1, 2]), TypeError, "changes must be a dictionary, as {.*}, not .1, 2."),
+        (lambda: rheonet.loads(FRICTION, ["k1.stiffness=2"]), TypeError, "changes must be a dictionary"),
+        (lambda: rheonet.loads(FRICTION, {3: 1}), TypeError, "the keys of changes must be text"),
+        (lambda: rheonet.loads(3), TypeError, "the netlist must be text, not 3"),
+        (lambda: rheonet.load(3), TypeError, "source must be the path of a file, but is 3"),
+        (lambda: scene.precision(1e-3), TypeError, "accuracies must be a list of numbers, as .1e-3, 1e-6., but is 0.001"),
+        (lambda: scene.precision(["fine"]), TypeError, "each of accuracies must be a number"),
+        (lambda: scene.precision([1e-3], models=[scene]), TypeError, "models must be a dictionary"),
+        (lambda: scene.precision([1e-3], variants="all"), TypeError, "variants must be True or False"),
+        (lambda: scene.effects(runs=10**12), ValueError, "runs must be at most"),
+        (lambda: scene.sensitivities(3), TypeError, "values must be text or a list of text"),
+        (lambda: scene.compare(scene, pairs=["s1.force"]), TypeError, "pairs must be a dictionary"),
+        (lambda: scene.report(title=3), TypeError, "title must be text, not 3"),
+    ):
+        with pytest.raises(kind, match=text):
+            study()
     for study in (lambda: scene.compare("other.toml"), lambda: scene.report("other.toml"), lambda: scene.precision(models={"x": "other.toml"})):
         with pytest.raises(TypeError, match="expected a Scene, made by load"):
             study()

@@ -225,6 +225,12 @@ def test_sensitivities_are_those_of_the_command(scene):
     assert "s1.coulomb" in str(found)
 
 
+def test_sensitivities_are_a_collection_of_records(scene):
+    slopes = scene.sensitivities("s1.coulomb")
+    assert "s1.force" in slopes and "s1.velocity" not in slopes and 3 not in slopes
+    assert list(slopes) == ["a.position", "s1.force", "k1.force"] and len(slopes) == 3
+
+
 def test_sensitivities_name_what_has_no_derivative(scene):
     with pytest.raises(rheonet.NetlistError, match="k1.stifness"):
         scene.sensitivities("k1.stifness")

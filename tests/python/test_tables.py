@@ -106,14 +106,83 @@ def test_ctrl_c_ends_a_sweep():
 def test_bad_use_of_a_sweep():
     scene = rheonet.load(OSCILLATOR)
     with pytest.raises(rheonet.NetlistError, match="at least 0, but is -2 kg") as caught:
-        scene.sweep({"m1.mass": [1, -2]})
+        scene.sweep({"m1.mass": [1, -2]}, on_error="raise")
     assert caught.value.__notes__ == ["in the run with {'m1.mass': -2}"]
     with pytest.raises(rheonet.NetlistError, match="colour"):
         scene.sweep({"k1.stiffness": [1, 2]}, measure="max(k1.colour)")
     with pytest.raises(ValueError, match="different times"):
         scene.sweep({"simulate.stop": [1, 2]})
+    with pytest.raises(ValueError, match="have different records"):
+        scene.sweep({"simulate.record": [["a.position"], ["k1.force"]]})
     with pytest.raises(ValueError, match="at least one value"):
         scene.sweep({"k1.stiffness": []})
+    with pytest.raises(ValueError, match="on_error must be 'nan' or 'raise'"):
+        scene.sweep({"k1.stiffness": [1]}, on_error="skip")
+
+
+def test_a_failed_run_is_nan_and_says_why():
+    scene = rheonet.load(OSCILLATOR)
+    good = scene.sweep({"m1.mass": [1, 3], "k1.stiffness": [100, 200]})
+    with pytest.warns(RuntimeWarning, match="2 of 6 runs failed, as the one with {'m1.mass': -2, 'k1.stiffness': 100}: `mass` must be at least 0") as warned:
+        data = scene.sweep({"m1.mass": [1, -2, 3], "k1.stiffness": [100, 200]})
+    assert warned[0].filename == __file__
+    assert data["error"].dims == ("m1.mass", "k1.stiffness") and (data["error"].sel({"m1.mass": [1, 3]}) == "").all()
+    assert all("at least 0, but is -2 kg" in reason for reason in data["error"].sel({"m1.mass": -2}).values)
+    assert np.isnan(data["a.position"].sel({"m1.mass": -2})).all()
+    assert data.drop_vars("error").sel({"m1.mass": [1, 3]}).identical(good)
+    with pytest.warns(RuntimeWarning):
+        peaks = scene.sweep({"m1.mass": [-2, 1, 3]}, "max(k1.force)")
+    assert np.isnan(peaks["max(k1.force)"][0]) and peaks["max(k1.force)"].units == "N" and not np.isnan(peaks["max(k1.force)"][1:]).any()
+    with pytest.warns(RuntimeWarning):
+        drawn = scene.sample({"m1.mass": "-1 kg,2 kg"}, 16, "max(k1.force)")
+    assert ((drawn["error"] != "") == (drawn["m1.mass"] < 0)).all() and (np.isnan(drawn["max(k1.force)"]) == (drawn["m1.mass"] < 0)).all()
+
+
+def test_a_run_that_ends_early_is_nan():
+    text = OSCILLATOR | {"elements": {**OSCILLATOR["elements"], "x": {"type": "motion", "at": "b", "position": 0.5}}}
+    text["simulate"] = text["simulate"] | {"record": ["a.position", "x.force"]}
+    scene = rheonet.load(text)
+    with pytest.warns(RuntimeWarning, match="1 of 2 runs failed"):
+        data = scene.sweep({"x.at": ["b", "a"]})  # a starts elsewhere than where x holds it
+    assert np.isnan(data["a.position"].sel({"x.at": "a"})).all() and not np.isnan(data["a.position"].sel({"x.at": "b"})).any()
+
+
+def test_what_concerns_all_runs_is_an_error_at_once():
+    scene = rheonet.load(OSCILLATOR)
+    for changes, measure in (({"m1.mas": [1, 2]}, None), ({"m1.mass": [-1, 1]}, "max(k1.colour)")):
+        with pytest.raises(rheonet.NetlistError):
+            scene.sweep(changes, measure)
+    began = time.monotonic()
+    with pytest.raises(rheonet.NetlistError):
+        endless().sweep({"k1.stiffness": [200, 300, 400], "m2.mass": [1]})
+    assert time.monotonic() - began < 10
+    with pytest.raises(rheonet.NetlistError) as caught:
+        scene.sweep({"m1.mass": [-1, -2, -3]})
+    assert caught.value.__notes__ == ["in the run with {'m1.mass': -1}", "and all other runs of 3 failed as well"]
+
+
+def test_tables_as_values_are_text_coordinates():
+    scene = rheonet.loads(FRICTION)
+    tables = [[[0, 0], [2, 0.001]], [[0, 0], [1, 0.002], [2, 0.003]]]
+    data = scene.sweep({"drive.position": [{"table": table} for table in tables], "k1.stiffness": [100]}, "max(a.position)")
+    assert data["drive.position"].values.tolist() == ['{ "table" = [[0, 0], [2, 0.001]] }', '{ "table" = [[0, 0], [1, 0.002], [2, 0.003]] }']
+    np.testing.assert_allclose(data["max(a.position)"].values[:, 0], [0.001, 0.003])
+    with pytest.raises(TypeError, match="a netlist holds numbers, text, lists and dictionaries"):
+        endless().sweep({"k1.stiffness": [200, object()]})  # before any run
+
+
+@pytest.mark.parametrize("name", ["scene", "title", "value", "error"])
+def test_records_with_the_names_of_dimensions(name):
+    scene = rheonet.loads(FRICTION.replace('"s1.velocity"]', f'{{ name = "{name}", value = "2*s1.force" }}]'))
+    result = scene.run()
+    np.testing.assert_array_equal(result.to_xarray()[name], result[name])
+    compared = scene.compare(scene).to_xarray()
+    np.testing.assert_array_equal(compared[name][1], compared[name][0])
+    slopes = scene.sensitivities("s1.coulomb")
+    np.testing.assert_array_equal(slopes.to_xarray()[name], slopes[name])
+    with pytest.warns(RuntimeWarning):
+        swept = scene.sweep({"s1.coulomb": [-1, "0.1 N"]})
+    np.testing.assert_array_equal(swept[name][1], result[name])
 
 
 def test_an_explanation_is_data():

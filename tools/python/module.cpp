@@ -56,6 +56,8 @@ void add_readings(py::module_& module) {
   py::class_<Reading>(module, "Reading")
       .def_property_readonly("complete", &Reading::complete)
       .def_property_readonly("diagnostics", &Reading::diagnostics)
+      .def_property_readonly("mistakes_in_changes", &Reading::mistakes_in_changes)
+      .def("run_with", &Reading::run_with, py::arg("times"), py::arg("columns"))
       .def_property_readonly("title", [](const Reading& r) { return r.scene().title; })
       .def_property_readonly("start", [](const Reading& r) { return r.scene().start; })
       .def_property_readonly("stop", [](const Reading& r) { return r.scene().stop; })
@@ -71,10 +73,10 @@ void add_readings(py::module_& module) {
       .def("schematic", &Reading::schematic, py::call_guard<Unlocked>());
 
   py::class_<Source>(module, "Source")
-      .def(py::init<std::string, std::optional<std::string>, std::string>(), py::arg("file"), py::arg("text"), py::arg("folder"))
+      .def(py::init<std::string, std::optional<std::string>, std::string, const Source::Files&, const Source::Files&>(), py::arg("file"), py::arg("text"),
+           py::arg("folder"), py::arg("texts") = Source::Files{}, py::arg("canonical") = Source::Files{})
       .def_property_readonly("file", &Source::file)
-      .def_property_readonly("arguments", &Source::arguments)
-      .def("__reduce__", [](const py::object& self) { return py::make_tuple(py::type::of(self), self.attr("arguments")); })
+      .def("__reduce__", [](const py::object& self) { return py::make_tuple(py::type::of(self), self.cast<Source&>().state()); })
       .def(
           "read",
           [](Source& source, std::vector<std::string> overrides, std::optional<std::vector<std::string>> measures, std::vector<std::string> library,

@@ -1,7 +1,10 @@
 #include "tools/python/reading.hpp"
 
+#include <pybind11/stl.h>
+
 #include <utility>
 
+#include "core/netlist/characters.hpp"
 #include "core/network/advice.hpp"
 #include "core/network/component.hpp"
 #include "core/result/explain.hpp"
@@ -32,6 +35,21 @@ py::list Reading::diagnostics() const {
   py::list result;
   for (const Diagnostic& diagnostic : diagnostics_) result.append(as_dict(diagnostic, *sources_));
   return result;
+}
+
+std::vector<std::pair<int, bool>> Reading::mistakes_in_changes() const {
+  std::vector<std::pair<int, bool>> all;
+  for (const Diagnostic& diagnostic : diagnostics_) {
+    const Spot& spot = diagnostic.spot;
+    if (diagnostic.severity != Severity::error || !spot.on_command_line()) continue;
+    if (spot.line < 1) {
+      all.emplace_back(-1, false);
+      continue;
+    }
+    const std::string& text = sources_->command_line.at(static_cast<std::size_t>(spot.line) - 1);
+    all.emplace_back(spot.line - 1, static_cast<std::size_t>(spot.column) <= count_characters(std::string_view(text).substr(0, text.find('='))));
+  }
+  return all;
 }
 
 py::dict Reading::units() const {
@@ -81,6 +99,16 @@ std::unique_ptr<Run> Reading::run(const RunWanted& wanted, const py::object& pro
   return run;
 }
 
+std::unique_ptr<Run> Reading::run_with(std::vector<double> times, std::vector<std::vector<double>> columns) const {
+  auto run = std::make_unique<Run>();
+  run->scene = scene_;
+  run->sources = sources_;
+  run->drawn = presentation_.plot;
+  run->times = std::move(times);
+  run->columns = std::move(columns);
+  return run;
+}
+
 std::string Reading::explanation() const {
   std::optional<SimulationError> failure;
   {
@@ -107,6 +135,23 @@ std::shared_ptr<const Scene> Reading::with_accuracy(std::optional<double> accura
   auto changed = std::make_shared<Scene>(*scene_);
   changed->accuracy = *accuracy;
   return changed;
+}
+
+Source::Source(std::string file, std::optional<std::string> text, std::string folder, const Files& texts, const Files& canonical)
+    : file_(std::move(file)), text_(std::move(text)), folder_(std::move(folder)) {
+  FileCache::Contents contents;
+  for (const auto& [path, read] : texts) contents.texts.emplace(std::string(path), std::string(read));
+  for (const auto& [path, found] : canonical) contents.canonical.emplace(std::string(path), std::string(found));
+  cache_.add(std::move(contents));
+}
+
+py::tuple Source::state() {
+  const auto absolute = [this](const std::filesystem::path& path) { return path == "." ? working_folder_ : working_folder_ / path; };
+  const FileCache::Contents contents = cache_.contents();
+  Files texts, canonical;
+  for (const auto& [path, text] : contents.texts) texts.emplace_back(absolute(path).string(), text);
+  for (const auto& [path, found] : contents.canonical) canonical.emplace_back(absolute(path).string(), found.string());
+  return py::make_tuple(text_ ? file_ : absolute(file_).string(), text_, absolute(folder_).string(), texts, canonical);
 }
 
 Reading Source::read(Wanted wanted) {

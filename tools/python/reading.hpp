@@ -2,9 +2,11 @@
 
 #include <pybind11/pybind11.h>
 
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/netlist/read.hpp"
@@ -34,11 +36,16 @@ class Reading {
   ReadResult read_result(std::optional<double> accuracy) const;
 
   py::list diagnostics() const;
+  /// Of each mistake in the overrides and measures: the index of its text among them, and whether it is in the path of an override.
+  std::vector<std::pair<int, bool>> mistakes_in_changes() const;
   py::dict units() const;
   std::unique_ptr<Run> run(const RunWanted& wanted, const py::object& progress) const;
 
   /// The JSON of `rheonet explain --json`. Raises rheonet.SimulationError if the scene cannot start.
   std::string explanation() const;
+
+  /// The run of this scene that had these rows, for a figure.
+  std::unique_ptr<Run> run_with(std::vector<double> times, std::vector<std::vector<double>> columns) const;
 
   /// The SVG of the network; absent if it is too large to be drawn.
   std::optional<std::string> schematic() const;
@@ -57,11 +64,13 @@ class Reading {
 /// the same contents.
 class Source {
  public:
-  Source(std::string file, std::optional<std::string> text, std::string folder)
-      : file_(std::move(file)), text_(std::move(text)), folder_(std::move(folder)) {}
+  using Files = std::vector<std::pair<py::bytes, py::bytes>>;
+  /// `texts` and `canonical`: what another Source has read: see `state`.
+  Source(std::string file, std::optional<std::string> text, std::string folder, const Files& texts = {}, const Files& canonical = {});
 
   const std::string& file() const { return file_; }
-  py::tuple arguments() const { return py::make_tuple(file_, text_, folder_); }
+  /// The arguments of a Source that has read what this one has, in any process, with absolute paths.
+  py::tuple state();
 
   struct Wanted {
     std::vector<std::string> overrides;                   ///< "PATH=VALUE".
@@ -76,6 +85,7 @@ class Source {
   std::string file_;
   std::optional<std::string> text_;
   std::string folder_;  ///< Folder of the files that a text includes.
+  std::filesystem::path working_folder_ = std::filesystem::current_path();  ///< Relative paths refer to it.
   FileCache cache_;
 };
 

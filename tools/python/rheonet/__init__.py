@@ -10,23 +10,16 @@
 Every value is in SI units, as in the CSV files of the command `rheonet run`.
 """
 
-import functools
-import itertools
 import json
-import numbers
-import os
-import pathlib
 import warnings
 from collections.abc import Mapping
 
-import numpy as np
-
-from . import _parallel, _pictures, _rheonet
+from . import _arguments, _pictures, _rheonet, _runs, _sweeps
 from ._errors import Diagnostic, NetlistError, NetlistWarning, SimulationError, diagnostics_of
 from ._pictures import Figure, Report
 from ._result import Event, Result
 from ._studies import Comparison, Difference, Effects, Model, Precision, Price, Sensitivities
-from ._values import coordinate, setting, toml_of
+from ._values import setting, toml_of
 
 __version__ = _rheonet.__version__
 __all__ = [
@@ -48,13 +41,14 @@ def load(source, changes={}):
     """
     if isinstance(source, Mapping):
         return _scene(_rheonet.Source("<dictionary>", toml_of(source), "."), changes)
-    return _scene(_rheonet.Source(os.fspath(source), None, ""), changes)
+    return _scene(_rheonet.Source(_arguments.file("source", source), None, ""), changes)
 
 
 def loads(text, changes={}, name="<text>", folder="."):
     """Reads a netlist from text. `name` stands for the file in messages; included files and tables are searched for in `folder`.
     The rest is as for load()."""
-    return _scene(_rheonet.Source(name, text, os.fspath(folder)), changes)
+    source = _rheonet.Source(_arguments.text("name", name), _arguments.text("the netlist", text), _arguments.file("folder", folder))
+    return _scene(source, changes)
 
 
 class Scene:
@@ -113,51 +107,29 @@ class Scene:
         Returns a Result. Raises SimulationError, or KeyboardInterrupt on Ctrl-C. The interpreter lock is released: runs in
         several Python threads use several processors.
         """
-        return _run(self, accuracy, certify, threads, progress)
+        return _runs.run(self, accuracy, certify, threads, progress)
 
-    def sweep(self, changes, measure=None, accuracy=None, jobs=None, client=None):
+    def sweep(self, changes, measure=None, accuracy=None, jobs=None, client=None, on_error="nan"):
         """Simulates the scene for all combinations of values.
 
         changes: the values of each parameter, by path: {"k1.stiffness": ["1 N/mm", "2 N/mm"], "m1.mass": [0.1, 1, 10]}.
         measure: figures of each run in place of its rows, as after `--measure` of the command: ["max(k1.force)"].
         accuracy: as for run().
         jobs: number of runs at a time; None: one for each processor.
-        client: a dask.distributed.Client, on whose workers the runs are simulated; they have to find the same files.
+        client: a dask.distributed.Client, on whose workers the runs are simulated. They get the files as they were when the scene was loaded;
+            files that only some values name they have to find themselves.
+        on_error: "nan" for NaN where a run cannot be read or simulated, with a RuntimeWarning and the reasons in the variable "error";
+            "raise" to raise the first error.
 
         Returns an xarray.Dataset with a dimension and a coordinate for each parameter: numbers if all values have one unit (in
         the attribute "units"; absent for numbers and expressions without a unit, which are SI), else text. It holds either the measures, or
-        the records with the further dimension "time". Raises NetlistError and SimulationError like load() and run(), and
-        ValueError if the rows of two runs are at different times.
+        the records with the further dimension "time". Raises NetlistError for mistakes that concern all runs, NetlistError and SimulationError if
+        all runs fail, and ValueError if the rows of two runs are at different times.
         """
-        import xarray
+        return _sweeps.sweep(self, changes, measure, accuracy, jobs, client, on_error)
 
-        paths = list(changes)
-        values = [_values(path, changes[path]) for path in paths]
-        shape = [len(axis) for axis in values]
-        measures = _texts(measure)
-        combinations = list(itertools.product(*values))
-        if not combinations:
-            raise ValueError("a sweep needs at least one value of each parameter")
-
-        outcomes = self._outcomes(paths, combinations, measures, accuracy, jobs, client)
-        coordinates = {path: coordinate(path, axis) for path, axis in zip(paths, values)}
-        if measures:
-            return xarray.Dataset(_measured(outcomes, measures, paths, shape), coordinates, {"title": self.title})
-        time = outcomes[0].time
-        for combination, result in zip(combinations, outcomes):
-            if not np.array_equal(result.time, time):
-                raise ValueError(
-                    f"the rows of the runs {combinations[0]} and {combination} are at different times; "
-                    "give `measure`, or let `simulate.output` and `simulate.stop` be the same in all runs"
-                )
-        coordinates["time"] = ("time", time, {"units": "s"})
-        variables = {
-            name: ([*paths, "time"], np.reshape([result[name] for result in outcomes], [*shape, len(time)]), {"units": unit})
-            for name, unit in outcomes[0].units.items()
-        }
-        return xarray.Dataset(variables, coordinates, {"title": self.title})
-
-    def sample(self, values, count, measure, kind="random", seed=1, correlations={}, accuracy=None, jobs=None, client=None):
+    def sample(self, values, count, measure, kind="random", seed=1, correlations={}, accuracy=None, jobs=None, client=None,
+               on_error="nan"):  # fmt: skip
         """Simulates the scene at points that are drawn from distributions: a Monte Carlo.
 
         values: the distribution of each value, by path, as after `--vary` of the command: {"k1.stiffness": "normal(1 N/mm, 5 %)",
@@ -167,35 +139,12 @@ class Scene:
         kind: "random" for independent points, "latin" for a Latin hypercube, "sobol" for Sobol's sequence.
         seed: the same seed draws the same points, those of the command.
         correlations: coefficients for pairs of normal scores: {("k1.stiffness", "s1.coulomb"): 0.5}.
-        accuracy, jobs, client: as for sweep().
+        accuracy, jobs, client, on_error: as for sweep().
 
         Returns an xarray.Dataset over the dimension "run", with the values as coordinates. Raises ValueError for a distribution that cannot be
         read, and otherwise what sweep() raises.
         """
-        import xarray
-
-        if kind not in ("random", "latin", "sobol"):
-            raise ValueError(f"kind must be 'random', 'latin' or 'sobol', but is {kind!r}")
-        paths = list(values)
-        measures = _texts(measure)
-        if not measures or not paths:
-            raise ValueError("a Monte Carlo needs a distribution of at least one value, and at least one measure")
-        vary = [f"{path}={distribution}" for path, distribution in values.items()]
-        correlate = [f"{one},{other}={coefficient}" for (one, other), coefficient in correlations.items()]
-        points = _rheonet.drawn_points(vary, kind, _count("count", count), seed, correlate)
-        outcomes = self._outcomes(paths, points, measures, accuracy, jobs, client)
-        coordinates = {path: coordinate("run", [point[k] for point in points]) for k, path in enumerate(paths)}
-        coordinates["run"] = np.arange(1, len(points) + 1)
-        return xarray.Dataset(_measured(outcomes, measures, ["run"], [len(points)]), coordinates, {"title": self.title})
-
-    def _outcomes(self, paths, points, measures, accuracy, jobs, client):
-        """The outcome of a run at each point."""
-        if client is None:
-            run = functools.partial(_outcome, self._source, self._changes, paths, measures, accuracy)
-            return _parallel.in_threads(run, points, jobs)
-        source = _parallel.everywhere(*self._source.arguments)
-        run = functools.partial(_portable_outcome, source, self._changes, paths, measures, accuracy)
-        return _parallel.on_dask(client, run, points)
+        return _sweeps.sample(self, values, count, measure, kind, seed, correlations, accuracy, jobs, client, on_error)
 
     def explain(self):
         """What will be simulated, and why: what `rheonet explain --json` prints, as a dictionary. Raises SimulationError, without a
@@ -217,12 +166,14 @@ class Scene:
             raise TypeError("compare() takes at least one other scene")
         _check_scenes(others)
         scenes = [self, *others]
+        _arguments.mapping("pairs", pairs, '{"k1.force": "m.spring1.force"}')
+        pairs = {own: _arguments.texts("pairs", other, "m.spring1.force") if not isinstance(other, str) else other for own, other in pairs.items()}
         pairings = [[own, *([other] * len(others) if isinstance(other, str) else other)] for own, other in pairs.items()]
         for pairing in pairings:
             if len(pairing) != len(scenes):
                 raise ValueError(f"`pairs` names {len(pairing)} records of {pairing[0]!r} for {len(scenes)} scenes")
         readings = [scene._read_again(records=[pairing[k] for pairing in pairings]) for k, scene in enumerate(scenes)]
-        return Comparison(_rheonet.Comparison(readings, pairings, _progress(progress)), [scene.title for scene in scenes])
+        return Comparison(_rheonet.Comparison(readings, pairings, _arguments.progress(progress)), [scene.title for scene in scenes])
 
     def effects(self, runs=5, progress=None):
         """Leaves out each physical effect (inertia, friction, ...) alone, then more and more of them together, and simulates each of these models.
@@ -232,7 +183,7 @@ class Scene:
 
         Returns Effects: the change of every record, and the cost. Raises SimulationError if the full model cannot be simulated.
         """
-        return Effects(_rheonet.Effects(self._read_again(), _count("runs", runs), _progress(progress)), self.units)
+        return Effects(_rheonet.Effects(self._read_again(), _arguments.count("runs", runs), _arguments.progress(progress)), self.units)
 
     def precision(self, accuracies=(), runs=5, variants=False, certified=False, models={}, pairs={}, progress=None):
         """Simulates the scene to several accuracies, and measures error and cost of each run.
@@ -247,17 +198,19 @@ class Scene:
 
         Returns Precision. Raises SimulationError if the reference run fails, ValueError for models that cannot be compared.
         """
-        _check_scenes(models.values())
-        for accuracy in accuracies:
-            _check_accuracy(accuracy)
-        for record in pairs:
+        _check_scenes(_arguments.mapping("models", models, '{"thick oil": scene}').values())
+        unique = sorted(set(_arguments.accuracies(accuracies)), reverse=True)
+        for record, other in _arguments.mapping("pairs", pairs, '{"k1.force": "m.spring1.force"}').items():
+            _arguments.text(f"the pair of {record!r}", other)
             if record not in self.units:
                 raise ValueError(f"`pairs` names {record!r}, which the scene does not record")
+        runs, variants, certified = _arguments.count("runs", runs), _arguments.flag("variants", variants), _arguments.flag("certified", certified)
         records = [pairs.get(record, record) for record in self.names]
         others = [(name, model._read_again(records=records)) for name, model in models.items()]
-        unique = sorted(set(map(float, accuracies)), reverse=True)
-        study = _rheonet.Precision(self._read_again(), unique, _count("runs", runs), variants, certified, others, [records] * len(others), _progress(progress))
-        return Precision(study)
+        of_models = [records] * len(others)
+        return Precision(
+            _rheonet.Precision(self._read_again(), unique, runs, variants, certified, others, of_models, _arguments.progress(progress))
+        )
 
     def sensitivities(self, values, accuracy=None, progress=None):
         """Differentiates every record by values of the netlist, across events too, as `rheonet run --sensitivities` does.
@@ -269,14 +222,14 @@ class Scene:
         Returns Sensitivities. Raises NetlistError for a path without a value that can be multiplied, SimulationError, also where a derivative
         does not exist because any change of the value leads to other events.
         """
-        _check_accuracy(accuracy)
-        paths = [values] if isinstance(values, str) else list(values)
+        accuracy, progress = _arguments.accuracy(accuracy), _arguments.progress(progress)
+        paths = _arguments.texts("values", values, ["k1.stiffness"])
         if not paths:
             raise ValueError("sensitivities() takes the path of at least one value")
-        overrides = _overrides(self._changes)
+        overrides, library = _runs.overrides(self._changes), _runs.library()
         for path in paths:
-            _complete(self._source.read([*overrides, f"{path}*=1"], [], _library(), [], False))
-        study = _rheonet.Sensitivities(self._source, overrides, _library(), paths, accuracy, _progress(progress))
+            _runs.complete(self._source.read([*overrides, f"{path}*=1"], [], library, [], False))
+        study = _rheonet.Sensitivities(self._source, overrides, library, paths, accuracy, progress)
         return Sensitivities(study, paths, self.units, self.title)
 
     def plot(self, y=(), *, accuracy=None, progress=None, ax=None, **options):
@@ -287,7 +240,7 @@ class Scene:
         options = _pictures.plot_options(y, **options)
         records = _rheonet.records_to_plot(**options)
         reading = self._read_again(records=records, plotted=not records)
-        result = _run(Scene(self._source, self._changes, reading), accuracy, progress=progress, both_sides=True)
+        result = _runs.run(Scene(self._source, self._changes, reading), accuracy, progress=progress, both_sides=True)
         return _pictures.plot(result._run, self._source.file, result.units, ax, options)
 
     def report(self, *others, title=None, accuracy=None, certify=False, precision=False, progress=None):
@@ -303,132 +256,51 @@ class Scene:
         Returns a Report. Raises RuntimeError if rheonet was built without the web pages, SimulationError if the scene is to be certified and
         cannot be simulated. A run that ends early is shown up to there: see Report.failures.
         """
-        _check_accuracy(accuracy)
+        accuracy, progress = _arguments.accuracy(accuracy), _arguments.progress(progress)
+        certify, precision = _arguments.flag("certify", certify), _arguments.flag("precision", precision)
         _check_scenes(others)
         scenes = [self, *others]
         readings = [scene._read_again(plotted=True, measures=None) for scene in scenes]
-        heading = title if title is not None else self.title or self._source.file
-        return Report(*_rheonet.report(readings, accuracy, heading, certify, precision, _progress(progress)))
+        heading = _arguments.text("title", title) if title is not None else self.title or self._source.file
+        return Report(*_rheonet.report(readings, accuracy, heading, certify, precision, progress))
 
     def _read_again(self, records=(), plotted=False, measures=()):
         """Without the claims of the netlist, unless `measures` is None: they are about the scene as it stands, alone."""
-        return _read(self._source, self._changes, measures, records, plotted)
+        return _runs.read(self._source, self._changes, measures, records, plotted)
 
     def _repr_html_(self):
         """The schematic, for Jupyter; None if the network is too large to be drawn."""
         svg = self._reading.schematic()
         return svg and _pictures.image(svg, f"schematic of {self.title or self._source.file}")
 
+    def __reduce__(self):
+        """A copy in another process has the texts of the files as they were when the scene was loaded."""
+        return _scene_again, (self._source, self._changes)
+
+    def __copy__(self):
+        return self
+
+    def __deepcopy__(self, _):
+        return self
+
     def __repr__(self):
         return f"<rheonet.Scene {self.title or self._source.file!r}: {len(self.names)} records, {self.start:g} s to {self.stop:g} s>"
 
 
-def _read(source, changes, measures=None, records=(), plotted=False):
-    """Reads a netlist; `measures` take the place of its claims."""
-    return _complete(source.read(_overrides(changes), measures, _library(), list(records), plotted))
-
-
-def _overrides(changes):
-    return [f"{path}={setting(value)}" for path, value in changes.items()]
-
-
-def _complete(reading):
-    """The reading; raises NetlistError if there are mistakes in it."""
-    if not reading.complete:
-        raise NetlistError(diagnostics_of(reading))
-    return reading
+def _scene_again(source, changes):
+    return Scene(source, changes, _runs.read(source, changes))
 
 
 def _scene(source, changes):
-    scene = Scene(source, dict(changes), _read(source, changes))
+    _arguments.mapping("changes", changes, '{"k1.stiffness": "2 N/mm"}')
+    changes = {path: setting(value) for path, value in changes.items()}  # text: a list or an array may change later
+    scene = _scene_again(source, changes)
     for diagnostic in scene.warnings:
         warnings.warn(diagnostic.text, NetlistWarning, stacklevel=3)
     return scene
-
-
-def _run(scene, accuracy=None, certify=False, threads=1, progress=None, both_sides=False):
-    _check_accuracy(accuracy)
-    run = scene._reading.run(accuracy, certify, _count("threads", threads), both_sides, _progress(progress))
-    result = Result(run, scene, accuracy)
-    if run.failure is not None:
-        raise SimulationError([Diagnostic(**run.failure)], result)
-    return result
-
-
-def _values(path, values):
-    """The values of a parameter as a list; text is one value, not a list of characters."""
-    if isinstance(values, (str, Mapping)) or np.ndim(values) == 0:
-        raise TypeError(f"the values of {path!r} must be a list, as [{values!r}], not {values!r}")
-    return list(values)
 
 
 def _check_scenes(scenes):
     for scene in scenes:
         if not isinstance(scene, Scene):
             raise TypeError(f"expected a Scene, made by load() or loads(), found {scene!r}")
-
-
-def _check_accuracy(accuracy):
-    finest, coarsest = 1e-12, 0.1  # as core/netlist/simulate_table.cpp
-    if accuracy is not None and not isinstance(accuracy, numbers.Real):
-        raise TypeError(f"accuracy must be a number, but is {accuracy!r}")
-    if accuracy is not None and not finest <= accuracy <= coarsest:
-        raise ValueError(f"accuracy must be from 1e-12 to 0.1, but is {accuracy!r}")
-
-
-def _count(name, value):
-    if not isinstance(value, numbers.Integral):
-        raise TypeError(f"{name} must be a whole number, but is {value!r}")
-    if value < 1:
-        raise ValueError(f"{name} must be at least 1, but is {value!r}")
-    return value
-
-
-def _progress(progress):
-    if progress is not None and not callable(progress):
-        raise TypeError(f"progress must be a function of the fraction completed, but is {progress!r}")
-    return progress
-
-
-def _outcome(source, changes, paths, measures, accuracy, combination, progress=None):
-    """A run of a sweep: its measures, or its Result."""
-    changed = dict(zip(paths, combination))
-    changes = {**changes, **changed}
-    try:
-        result = _run(Scene(source, changes, _read(source, changes, measures)), accuracy, progress=progress)
-    except (NetlistError, SimulationError) as error:
-        error.add_note(f"in the run with {changed}")
-        raise
-    return result.summary["claims"] if measures else result
-
-
-def _measured(outcomes, measures, dimensions, shape):
-    """The measures of runs as variables of a data set."""
-    return {
-        name: (dimensions, np.reshape([figures[k]["found"] for figures in outcomes], shape), {"units": outcomes[0][k]["unit"]})
-        for k, name in enumerate(measures)
-    }
-
-
-def _texts(value):
-    return [value] if isinstance(value, str) else list(value or ())
-
-
-def _portable_outcome(*arguments):
-    try:
-        outcome = _outcome(*arguments)
-    except SimulationError as error:
-        portable = SimulationError(error.diagnostics, None)  # its rows stay where they are
-        portable.__notes__ = error.__notes__
-        raise portable from None
-    return _parallel.Rows(outcome) if isinstance(outcome, Result) else outcome
-
-
-def _library():
-    """The folder that `include = ["library/..."]` falls back on: that of RHEONET_LIBRARY, of this package, or of the prefix that
-    the package is installed in (PREFIX/lib/python3/dist-packages/rheonet)."""
-    if chosen := os.environ.get("RHEONET_LIBRARY"):
-        return [chosen]
-    package = pathlib.Path(__file__).parent
-    folders = [package / "netlists", *(parent / "share/rheonet/netlists" for parent in package.parents[3:4])]
-    return [str(folder) for folder in folders if folder.is_dir()][:1]

@@ -4,14 +4,11 @@ import concurrent.futures
 import itertools
 import math
 import os
-import pathlib
 import queue
 import threading
 import time
 
 import numpy as np
-
-from . import _rheonet
 
 TASK_COST = 3e-3  # s; what Dask's scheduler spends on an empty task
 LEAST_SHARE = 100  # of that time a task simulates at least as much
@@ -69,13 +66,6 @@ def _rows(records, times, units):
     rows.update(records)
     rows.time, rows.units = times, units
     return rows
-
-
-def everywhere(file, text, folder):
-    """A netlist that can be read on every host that shares this folder."""
-    if text is None:
-        return _rheonet.Source(str(pathlib.Path(file).absolute()), None, folder)
-    return _rheonet.Source(file, text, str(pathlib.Path(folder).absolute()))
 
 
 def on_dask(client, function, items):

@@ -4,6 +4,8 @@ import html
 from collections.abc import Mapping
 from typing import NamedTuple
 
+import numpy as np
+
 from . import _pictures
 
 
@@ -16,6 +18,17 @@ class Event(NamedTuple):
     direction: int  #: of the motion after the event, or of the jump of a signal: 1, -1, or 0 at rest
 
 
+def free_name(name, taken):
+    """A name of a dimension, coordinate or variable that no record in `taken` has. (No record is called "time".)"""
+    while name in taken:
+        name += "_"
+    return name
+
+
+def _result_again(scene, accuracy, time, columns, kept):
+    return Result(scene._reading.run_with(time, columns), scene, accuracy, kept)
+
+
 class Result(Mapping):
     """The rows of a run, as a mapping from records to arrays: `result["k1.force"]` is a read-only array with the value of the record
     at each time, in SI units. Arrays are views of memory that the result owns; they keep it alive. Call .copy() on one to change it."""
@@ -23,9 +36,10 @@ class Result(Mapping):
     __eq__ = object.__eq__  # two results are not compared value by value
     __hash__ = object.__hash__
 
-    def __init__(self, run, scene, accuracy):
-        """Made by Scene.run()."""
+    def __init__(self, run, scene, accuracy, kept=None):
+        """Made by Scene.run(). `kept`: events, summary and certificate of a run in another process."""
         self._run = run
+        self._kept = kept
         self._scene = scene
         self._accuracy = accuracy
         self._units = scene.units
@@ -68,7 +82,7 @@ class Result(Mapping):
     @property
     def events(self):
         """A list of Event, sorted by time."""
-        return [Event(*event) for event in self._run.events]
+        return [Event(*event) for event in (self._kept["events"] if self._kept else self._run.events)]
 
     @property
     def summary(self):
@@ -81,14 +95,14 @@ class Result(Mapping):
         "claims": for each claim of `[expect]` a dictionary of its "name", the figure "found" and its "unit", what is "claimed",
             and whether it "holds".
         """
-        return self._run.summary
+        return self._kept["summary"] if self._kept else self._run.summary
 
     @property
     def certificate(self):
         """None without `certify`. A dictionary: whether the accuracy "holds" for every record, the estimated "errors" of each
         record ("largest" in SI, its "time" [s], "relative" to the largest magnitude), the "obstacle" to a tighter run
         ("" if there was none), the number of "runs", and "cpu_seconds" of all of them."""
-        return self._run.certificate
+        return self._kept["certificate"] if self._kept else self._run.certificate
 
     def to_dataframe(self):
         """A pandas.DataFrame with a column for each record and the time as its index. attrs["units"] holds the units."""
@@ -127,6 +141,10 @@ class Result(Mapping):
     def report(self, **options):
         """The report of the scene, simulated to the accuracy of this result: see Scene.report()."""
         return self._scene.report(accuracy=self._accuracy, **options)
+
+    def __reduce__(self):
+        kept = {"events": [tuple(event) for event in self.events], "summary": self.summary, "certificate": self.certificate}
+        return _result_again, (self._scene, self._accuracy, np.array(self.time), [np.array(column) for column in self.values()], kept)
 
     def _repr_html_(self):
         """A table of the smallest, largest and last value of each record, for Jupyter."""

@@ -2,6 +2,9 @@
 
 import dataclasses
 
+from . import _arguments
+from ._result import free_name
+
 
 @dataclasses.dataclass(frozen=True)
 class Difference:
@@ -17,6 +20,13 @@ class Difference:
     relative_rms: float  #: rms / scale
 
 
+class _Study:
+    def __reduce__(self):
+        name = type(self).__name__
+        tables = " or ".join(f"{table}()" for table in ("to_xarray", "to_dataframe") if hasattr(self, table))
+        raise TypeError(f"a {name} cannot be pickled or copied: use what its {tables} returns")
+
+
 def _frame(rows, **attributes):
     import pandas
 
@@ -25,7 +35,7 @@ def _frame(rows, **attributes):
     return frame
 
 
-class Comparison:
+class Comparison(_Study):
     """Scenes on one time base, and how far each is from the first. str() of it is what `rheonet compare` prints."""
 
     def __init__(self, study, titles):
@@ -69,11 +79,13 @@ class Comparison:
         return _frame(rows).set_index("compared")
 
     def to_xarray(self):
-        """An xarray.Dataset with a variable for each of `names` over the dimensions "scene" and "time": all rows of all scenes."""
+        """An xarray.Dataset with a variable for each of `names` over the dimensions "scene" and "time": all rows of all scenes. A
+        record of such a name keeps it: the dimension is then called "scene_"."""
         import xarray
 
-        variables = {name: (("scene", "time"), self._study.rows(k), {"units": self.units[name]}) for k, name in enumerate(self.names)}
-        coordinates = {"time": ("time", self._study.time, {"units": "s"}), "title": ("scene", self._titles)}
+        scene, title = free_name("scene", self.names), free_name("title", self.names)
+        variables = {name: ((scene, "time"), self._study.rows(k), {"units": self.units[name]}) for k, name in enumerate(self.names)}
+        coordinates = {"time": ("time", self._study.time, {"units": "s"}), title: (scene, self._titles)}
         return xarray.Dataset(variables, coordinates)
 
     def __str__(self):
@@ -105,7 +117,7 @@ def _model(found):
     return Model(**found | {"differences": {record: Difference(**values) for record, values in found["differences"].items()}})
 
 
-class Effects:
+class Effects(_Study):
     """The contribution of each physical effect to the records of a scene. str() of it is the output of `rheonet effects`."""
 
     def __init__(self, study, units):
@@ -135,7 +147,7 @@ class Effects:
     def barest(self, within=0.01):
         """The Model with the fewest effects of which no record differs from the full model by more than `within` times its largest
         magnitude; None if no effect can be left out."""
-        place = self._study.barest(within)
+        place = self._study.barest(_arguments.number("within", within))
         return None if place is None else self.steps[place]
 
     def to_dataframe(self):
@@ -181,7 +193,7 @@ class Price:
     failure: str  #: why the run ended early; "" if it did not. The figures above are void then
 
 
-class Precision:
+class Precision(_Study):
     """What accuracy costs in a scene. str() of it is what `rheonet precision` prints."""
 
     def __init__(self, study):
@@ -227,7 +239,7 @@ class Precision:
         return f"<rheonet.Precision: {len(self.prices)} prices>"
 
 
-class Sensitivities:
+class Sensitivities(_Study):
     """How the records of a scene change with values of its netlist. All derivatives are p dr/dp, with the value p and the record r: they have
     the unit of r, and 1 % more of p changes r by a hundredth of them. str() of it is the table that `rheonet run --sensitivities` prints."""
 
@@ -256,12 +268,25 @@ class Sensitivities:
             raise KeyError(f"{name!r} was not recorded; recorded: {', '.join(self._units)}")
         return self._study.rows(list(self._units).index(name))
 
+    def __iter__(self):
+        """The names of the records."""
+        return iter(self._units)
+
+    def __len__(self):
+        """The number of records."""
+        return len(self._units)
+
+    def __contains__(self, name):
+        return name in self._units
+
     def to_xarray(self):
-        """An xarray.Dataset with a variable for each record over the dimensions "value" and "time"."""
+        """An xarray.Dataset with a variable for each record over the dimensions "value" and "time" ("value_" if a record has
+        that name)."""
         import xarray
 
-        variables = {name: (("value", "time"), self[name], {"units": unit}) for name, unit in self._units.items()}
-        return xarray.Dataset(variables, {"value": self._values, "time": ("time", self.time, {"units": "s"})}, {"title": self._title})
+        value = free_name("value", self._units)
+        variables = {name: ((value, "time"), self[name], {"units": unit}) for name, unit in self._units.items()}
+        return xarray.Dataset(variables, {value: self._values, "time": ("time", self.time, {"units": "s"})}, {"title": self._title})
 
     def to_dataframe(self):
         """A pandas.DataFrame with a row for each value and record: "value", "record", "unit", the "largest" magnitude of the derivative, its

@@ -5,6 +5,8 @@ import numbers
 import re
 from collections.abc import Mapping
 
+import numpy as np
+
 from . import _rheonet
 
 
@@ -51,7 +53,7 @@ def coordinate(path, values):
     """The values of a parameter as an xarray coordinate: numbers if all have the same unit, or are expressions of numbers without a unit, and else
     text."""
     texts = [value for value in values if isinstance(value, str)]
-    all_scalar = all(isinstance(value, (str, numbers.Real)) for value in values)
+    all_scalar = all(isinstance(value, (str, numbers.Real, np.bool_)) for value in values)
     if not texts and all_scalar:
         return (path, values)
     evaluated = [_rheonet.evaluated(text) for text in texts]  # in SI, and whether it has a unit; None for a text that is no number
