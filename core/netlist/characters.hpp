@@ -15,6 +15,9 @@ bool is_printable(char32_t character);
 /// The text on one line: every character that is not printable is escaped as in TOML (a byte that is not UTF-8 as \xFF).
 std::string printable(std::string_view text);
 
+/// Removes the byte order mark that some programs, as Excel, write at the beginning of a file.
+void drop_byte_order_mark(std::string& text);
+
 /// A letter of any alphabet. Every byte of a character outside ASCII counts as a letter: none has a meaning of its own in a
 /// path or an expression.
 bool is_letter(char c);

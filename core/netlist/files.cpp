@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <system_error>
 
+#include "core/netlist/characters.hpp"
 #include "core/netlist/file_offer.hpp"
 
 namespace rheonet {
@@ -26,7 +27,7 @@ std::optional<std::string> Files::text_of(const fs::path& file, std::string& why
 
 int Files::add(fs::path shown, std::string text, fs::path folder, Sources::Role role) {
   // Lines and columns do not count a byte order mark.
-  if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
+  drop_byte_order_mark(text);
   sources_.files.push_back({std::move(shown), std::move(text), role});
   places_.push_back({std::move(folder)});
   return static_cast<int>(sources_.files.size()) - 1;

@@ -176,7 +176,7 @@ TEST_CASE("plot overlays runs and other files, each called by its name") {
   folder.shell(
       "rheonet run -q scene.toml -o soft.csv && rheonet run -q scene.toml -o stiff.csv --set k1.stiffness='400 N/m'",
       0);
-  folder.write("measured.csv", "time [ms],k1.force [gf]\n200,150\n500,90\n");
+  folder.write("measured.csv", "\xEF\xBB\xBF" "time [ms],k1.force [gf]\n200,150\n500,90\n");  // with a byte order mark, as from Excel
   const Finished both = folder.shell("rheonet plot soft.csv stiff.csv -y k1.force -o - --domain translation", 0);
   CHECK(contains(both.out, "<desc>force [N] against time [s]: soft, stiff</desc>"));
   CHECK(both.err == "");

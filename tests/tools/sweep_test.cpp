@@ -135,6 +135,9 @@ TEST_CASE("sweep: a list, with units in its headings; and a grid for each of its
   CHECK(rows[4] == Row{"4", "2", "3", "2", "6", ""});
   folder.write("list.csv", "parameters.B [N*s/cm];drive.velocity\n0,01;2\n0,02;\"max(2, 3)\"\n");
   CHECK(table(folder.shell("rheonet sweep scene.toml --list list.csv --vary simulate.stop=1,2 --measure 'final(c.force)' -q", 0).out)[4][4] == "6");
+  // Excel writes a byte order mark.
+  folder.write("list.csv", "\xEF\xBB\xBF" "parameters.B [N*s/cm];drive.velocity\r\n0,02;3\r\n");
+  CHECK(table(folder.shell("rheonet sweep scene.toml --list list.csv --measure 'final(c.force)' -q", 0).out)[1][3] == "6");
 }
 
 TEST_CASE("sweep and compare: what is wrong with the path of a value is shown as it was given") {

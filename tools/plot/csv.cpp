@@ -30,7 +30,7 @@ std::ifstream open(const std::string& path) {
 /// Goes to the next line that is no remark; false at the end.
 bool next(std::ifstream& in, std::string& line, long& number) {
   while (std::getline(in, line)) {
-    ++number;
+    if (++number == 1) drop_byte_order_mark(line);
     if (!is_csv_remark(line)) return true;
   }
   return false;

@@ -48,8 +48,9 @@ std::variant<Design, NoVariation> Design::read(const SweepArguments& sweep) {
 
 std::variant<std::monostate, NoVariation> Design::read_list(const std::string& file) {
   std::string why;
-  const auto text = rheonet::read_text(file, why);
+  auto text = rheonet::read_text(file, why);
   if (!text) return NoVariation{fmt::format("`--list {}` cannot be read: {}", file, why), ""};
+  drop_byte_order_mark(*text);
   std::vector<std::string> units;
   int number = 0;
   for (const std::string& line : split(*text, '\n')) {
