@@ -20,6 +20,7 @@
 #include "core/network/network.hpp"
 #include "core/result/csv.hpp"
 #include "core/result/memory_file.hpp"
+#include "core/result/row_store.hpp"
 
 namespace rheonet {
 
@@ -35,10 +36,8 @@ std::vector<std::string> lines_after_header(std::string_view text) {
   return result;
 }
 
-/// Results of a subscene.
+/// Results of a subscene, besides its rows.
 struct Outcome {
-  std::vector<double> times;
-  std::vector<std::vector<double>> rows;
   std::unique_ptr<MemoryFile> events;
   Summary summary;
   std::exception_ptr failure;
@@ -49,7 +48,7 @@ struct Outcome {
 class SideBySide {
  public:
   SideBySide(const Scene& scene, const Partition& partition, const RunSettings& settings)
-      : scene_(scene), partition_(partition), settings_(settings), outcomes_(partition.subscenes.size()) {}
+      : scene_(scene), partition_(partition), settings_(settings), outcomes_(partition.subscenes.size()), rows_(widths_of(partition)) {}
 
   Summary go() {
     std::vector<std::string> notes;
@@ -65,13 +64,19 @@ class SideBySide {
     work();
     for (std::thread& thread : others) thread.join();
     const Outcome* const failed = first_failed();
-    write_rows(failed ? failed->rows.size() : outcomes_.front().rows.size());
+    write_rows(rows_.rows(failed ? static_cast<std::size_t>(failed - outcomes_.data()) : 0));
     write_events(failed);
     if (failed) std::rethrow_exception(failed->failure);
     return summary(std::move(notes));
   }
 
  private:
+  static std::vector<std::size_t> widths_of(const Partition& partition) {
+    std::vector<std::size_t> widths;
+    for (const Subscene& subscene : partition.subscenes) widths.push_back(subscene.records.size());
+    return widths;
+  }
+
   /// Checks structure and start of the parts that are not integrated.
   void check_unasked(std::vector<std::string>& notes) const {
     if (partition_.left_out.empty()) return;
@@ -91,10 +96,7 @@ class SideBySide {
     settings.csv = settings.events = nullptr;
     settings.state = {};
     settings.profile = false;
-    settings.row = [&outcome](double time, const std::vector<double>& values) {
-      outcome.times.push_back(time);
-      outcome.rows.push_back(values);
-    };
+    settings.row = [this, k](double time, const std::vector<double>& values) { rows_.add(k, time, values); };
     settings.progress = [this, &outcome](double fraction) {
       outcome.reached = fraction;
       if (settings_.progress) {
@@ -118,13 +120,16 @@ class SideBySide {
   /// The failed subscene with the fewest rows.
   const Outcome* first_failed() const {
     const Outcome* first = nullptr;
-    for (const Outcome& outcome : outcomes_) {
-      if (outcome.failure && (!first || outcome.rows.size() < first->rows.size())) first = &outcome;
+    std::size_t fewest = 0;
+    for (std::size_t k = 0; k < outcomes_.size(); ++k) {
+      if (!outcomes_[k].failure || (first && rows_.rows(k) >= fewest)) continue;
+      first = &outcomes_[k];
+      fewest = rows_.rows(k);
     }
     return first;
   }
 
-  void write_rows(std::size_t count) const {
+  void write_rows(std::size_t count) {
     if (count == 0) return;
     std::vector<std::string> names;
     for (const Record& record : scene_.records) names.push_back(record.path);
@@ -133,11 +138,13 @@ class SideBySide {
     std::vector<double> values(scene_.records.size());
     for (std::size_t row = 0; row < count; ++row) {
       std::fill(values.begin(), values.end(), 0.0);
+      double time = 0;
       for (std::size_t k = 0; k < outcomes_.size(); ++k) {
         const std::vector<std::size_t>& records = partition_.subscenes[k].records;
-        for (std::size_t r = 0; r < records.size(); ++r) values[records[r]] += outcomes_[k].rows[row][r];
+        const double* const part = rows_.next(k);
+        if (k == 0) time = part[0];
+        for (std::size_t r = 0; r < records.size(); ++r) values[records[r]] += part[1 + r];
       }
-      const double time = outcomes_.front().times[row];
       csv.row(time, values);
       if (settings_.row) settings_.row(time, values);
     }
@@ -209,6 +216,7 @@ class SideBySide {
   const Partition& partition_;
   const RunSettings& settings_;
   std::vector<Outcome> outcomes_;
+  RowStore rows_;
   std::atomic<std::size_t> next_ = 0;
   std::mutex told_;
   double done_ = 0;  ///< sum of the reported fractions

@@ -50,3 +50,20 @@ TEST_CASE("a run in parts that cannot go on keeps the rows up to there") {
   CHECK(contains(result.err, "at t = 1.5 s nothing resists the force at node `three`"));
   CHECK(contains(result.err, "the 5 rows up to there are in `rows.csv`"));
 }
+
+#ifndef __SANITIZE_ADDRESS__  // it reserves terabytes
+TEST_CASE("the rows of parts wait on disk, not in memory") {
+  const Folder folder(R"([elements]
+a = { type = "motion", at = "n", position = { sine = "1 mm", frequency = "1 Hz" } }
+k = { type = "spring", between = ["n", "ground"], stiffness = "1 N/m" }
+b = { type = "motion", at = "m", position = { sine = "1 mm", frequency = "2 Hz" } }
+l = { type = "spring", between = ["m", "ground"], stiffness = "1 N/m" }
+[simulate]
+stop = 10
+output = { points = 1000001 }
+record = ["k.force", "l.force"]
+)");
+  folder.shell("ulimit -d 60000; rheonet run scene.toml -q -o apart.csv", 0);
+  folder.shell("rheonet run scene.toml -q -o whole.csv --keep parts; cmp apart.csv whole.csv", 0);
+}
+#endif
