@@ -3,7 +3,7 @@
 import os
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, NamedTuple, TypeVar, overload
+from typing import Any, Literal, NamedTuple, NoReturn, Protocol, TypeVar, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -12,12 +12,27 @@ import xarray
 
 __version__: str
 
-_Value = str | bool | int | float | Sequence[Any] | Mapping[str, Any]
+_Value = str | bool | int | float | np.generic | npt.NDArray[Any] | Sequence[Any] | Mapping[str, Any]
+
+class _Column(Protocol):  # a Series of pandas, a DataArray of xarray
+    def __len__(self) -> int: ...
+    def __iter__(self) -> Iterator[Any]: ...
+    def __array__(self) -> npt.NDArray[Any]: ...
+
+_Values = Sequence[_Value] | npt.NDArray[Any] | _Column
+_Numbers = Sequence[float] | npt.NDArray[Any] | _Column
 _Array = npt.NDArray[np.float64]
 _Path = str | os.PathLike[str]
 _Progress = Callable[[float], object] | None
 _Texts = str | Sequence[str]
-_Axes = TypeVar("_Axes")  # of matplotlib
+
+class _HasPlot(Protocol):
+    def plot(self, *args: Any, **options: Any) -> Any: ...
+    def set(self, **options: Any) -> Any: ...
+
+_Axes = TypeVar("_Axes", bound=_HasPlot)  # of matplotlib
+
+# Classes whose __init__ takes NoReturn are made by functions and methods, not by their names.
 
 class Diagnostic(NamedTuple):
     severity: str
@@ -35,6 +50,7 @@ class Event(NamedTuple):
     direction: int
 
 class _Located(Exception):
+    def __init__(self, diagnostics: list[Diagnostic]) -> None: ...
     diagnostics: list[Diagnostic]
     file: str | None
     line: int | None
@@ -45,6 +61,7 @@ class _Located(Exception):
 class NetlistError(_Located, ValueError): ...
 
 class SimulationError(_Located, RuntimeError):
+    def __init__(self, diagnostics: list[Diagnostic], result: Result | None) -> None: ...
     result: Result | None
 
 class NetlistWarning(UserWarning): ...
@@ -53,6 +70,9 @@ def load(source: str | os.PathLike[str] | Mapping[str, Any], changes: Mapping[st
 def loads(text: str, changes: Mapping[str, _Value] = ..., name: str = ..., folder: str | os.PathLike[str] = ...) -> Scene: ...
 
 class Scene:
+    def __init__(self, source: NoReturn, changes: NoReturn, reading: NoReturn) -> None: ...
+    def __copy__(self) -> Scene: ...
+    def __deepcopy__(self, _: Any) -> Scene: ...
     @property
     def title(self) -> str: ...
     @property
@@ -76,30 +96,32 @@ class Scene:
     ) -> Result: ...
     def sweep(
         self,
-        changes: Mapping[str, Sequence[_Value]],
+        changes: Mapping[str, _Values],
         measure: str | Sequence[str] | None = ...,
         accuracy: float | None = ...,
         jobs: int | None = ...,
         client: Any = ...,
+        on_error: Literal["nan", "raise"] = ...,
     ) -> xarray.Dataset: ...
     def sample(
         self,
         values: Mapping[str, str],
         count: int,
         measure: _Texts,
-        kind: str = ...,
+        kind: Literal["random", "latin", "sobol"] = ...,
         seed: int = ...,
         correlations: Mapping[tuple[str, str], float] = ...,
         accuracy: float | None = ...,
         jobs: int | None = ...,
         client: Any = ...,
+        on_error: Literal["nan", "raise"] = ...,
     ) -> xarray.Dataset: ...
     def explain(self) -> dict[str, Any]: ...
     def compare(self, *others: Scene, pairs: Mapping[str, _Texts] = ..., progress: _Progress = ...) -> Comparison: ...
     def effects(self, runs: int = ..., progress: _Progress = ...) -> Effects: ...
     def precision(
         self,
-        accuracies: Sequence[float] = ...,
+        accuracies: _Numbers = ...,
         runs: int = ...,
         variants: bool = ...,
         certified: bool = ...,
@@ -169,6 +191,7 @@ class Scene:
     ) -> Report: ...
 
 class Result(Mapping[str, _Array]):
+    def __init__(self, run: NoReturn, scene: NoReturn, accuracy: NoReturn, kept: NoReturn) -> None: ...
     @property
     def scene(self) -> Scene: ...
     @property
@@ -244,11 +267,13 @@ class Result(Mapping[str, _Array]):
     ) -> Report: ...
 
 class Figure:
+    def __init__(self, svg: NoReturn) -> None: ...
     @property
     def svg(self) -> str: ...
     def save(self, path: _Path) -> None: ...
 
 class Report:
+    def __init__(self, text: NoReturn, failures: NoReturn) -> None: ...
     @property
     def html(self) -> str: ...
     @property
@@ -267,6 +292,7 @@ class Difference:
     relative_rms: float
 
 class Comparison:
+    def __init__(self, study: NoReturn, titles: NoReturn) -> None: ...
     @property
     def names(self) -> list[str]: ...
     @property
@@ -291,6 +317,7 @@ class Model:
     def relative(self) -> float: ...
 
 class Effects:
+    def __init__(self, study: NoReturn, units: NoReturn) -> None: ...
     @property
     def effects(self) -> list[str]: ...
     @property
@@ -322,6 +349,7 @@ class Price:
     failure: str
 
 class Precision:
+    def __init__(self, study: NoReturn) -> None: ...
     @property
     def prices(self) -> list[Price]: ...
     @property
@@ -333,6 +361,7 @@ class Precision:
     def to_dataframe(self) -> pandas.DataFrame: ...
 
 class Sensitivities:
+    def __init__(self, study: NoReturn, values: NoReturn, units: NoReturn, title: NoReturn) -> None: ...
     @property
     def values(self) -> list[str]: ...
     @property
@@ -340,5 +369,8 @@ class Sensitivities:
     @property
     def time(self) -> _Array: ...
     def __getitem__(self, name: str) -> _Array: ...
+    def __iter__(self) -> Iterator[str]: ...
+    def __len__(self) -> int: ...
+    def __contains__(self, name: object) -> bool: ...
     def to_xarray(self) -> xarray.Dataset: ...
     def to_dataframe(self) -> pandas.DataFrame: ...

@@ -36,8 +36,8 @@ class Result(Mapping):
     __eq__ = object.__eq__  # two results are not compared value by value
     __hash__ = object.__hash__
 
-    def __init__(self, run, scene, accuracy, kept=None):
-        """Made by Scene.run(). `kept`: events, summary and certificate of a run in another process."""
+    def __init__(self, run, scene, accuracy, kept):
+        """Made by Scene.run(). `kept`: events, summary and certificate of a run in another process, or None."""
         self._run = run
         self._kept = kept
         self._scene = scene
@@ -138,9 +138,9 @@ class Result(Mapping):
         options = _pictures.plot_options(y, **options)
         return _pictures.plot(self._run, self._scene.title or "the result", self._units, ax, options)
 
-    def report(self, **options):
-        """The report of the scene, simulated to the accuracy of this result: see Scene.report()."""
-        return self._scene.report(accuracy=self._accuracy, **options)
+    def report(self, *others, title=None, certify=False, precision=False, progress=None):
+        """The report of the scene, and of other scenes, simulated to the accuracy of this result: see Scene.report()."""
+        return self._scene.report(*others, title=title, accuracy=self._accuracy, certify=certify, precision=precision, progress=progress)
 
     def __reduce__(self):
         kept = {"events": [tuple(event) for event in self.events], "summary": self.summary, "certificate": self.certificate}

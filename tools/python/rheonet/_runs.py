@@ -27,7 +27,7 @@ def complete(reading):
 def run(scene, accuracy=None, certify=False, threads=1, progress=None, both_sides=False):
     accuracy, certify = _arguments.accuracy(accuracy), _arguments.flag("certify", certify)
     run = scene._reading.run(accuracy, certify, _arguments.count("threads", threads), both_sides, _arguments.progress(progress))
-    result = Result(run, scene, accuracy)
+    result = Result(run, scene, accuracy, None)
     if run.failure is not None:
         raise SimulationError([Diagnostic(**run.failure)], result)
     return result
