@@ -208,8 +208,7 @@ Dual BlockSignals::of_function(int index, bool held) {
   FunctionBlock& function = functions_[at(function_of_[at(index)])];
   function.begin(network_->scene->start + now_);
   for (const Blocks::Input& in : block.inputs) {
-    const bool past_switch = in.from_block && function_of_[at(in.index)] >= 0 && functions_[at(function_of_[at(in.index)])].past_switch();
-    function.add(in.argument, Dual(in.sign) * source(in), held || !rests(block, in.argument), past_switch);
+    function.add(in.argument, Dual(in.sign) * source(in), held || !rests(block, in.argument), past_switch(in));
   }
   const Dual value = function.value(held);
   if (std::isnan(value.value)) {
@@ -389,7 +388,7 @@ bool BlockSignals::fire(const std::vector<int>& limits) {
     if (block.function) {
       FunctionBlock& function = functions_[at(function_of_[k])];
       function.begin(network_->scene->start + now_);
-      for (const Blocks::Input& in : block.inputs) function.add(in.argument, Dual(in.sign) * source(in), changing(in));
+      for (const Blocks::Input& in : block.inputs) function.add(in.argument, Dual(in.sign) * source(in), changing(in), past_switch(in));
       jumps_ = function.fire(switches[at(function_of_[k])], guards[at(function_of_[k])]) || jumps_;
       out_[k] = function.fired_value();
       changes[k] = function.changes();

@@ -189,6 +189,7 @@ class BlockSignals {
   std::vector<char> heavy_;  ///< For each sensor: it measures the velocity of a mass.
   std::vector<NodeId> moves_with_;  ///< see move_with
   bool rests(const Blocks::Block& block, std::size_t argument) const;
+  bool past_switch(const Blocks::Input& in) const { return in.from_block && function_of_[at(in.index)] >= 0 && functions_[at(function_of_[at(in.index)])].past_switch(); }
   std::vector<int> run_;           ///< Blocks whose outputs follow from states and inputs, in the order of evaluation.
   std::vector<int> state_of_;      ///< For each block, -1.
   std::vector<int> state_blocks_;

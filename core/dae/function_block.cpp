@@ -92,8 +92,10 @@ bool FunctionBlock::fire(const std::vector<std::size_t>& switches, const std::ve
     function_->cross(k, arguments_, crossed);
     fired_[k] = crossed[k];
   }
-  const double before = function_->value(arguments_, sides_).value_or(0);
-  fired_value_ = function_->value(arguments_, crossed, partials_).value_or(0);
+  bool past_switch = past_switch_;
+  const double before = function_->value_past_switches(arguments_, sides_, partials_, past_switch).value_or(0);
+  past_switch = past_switch_;
+  fired_value_ = function_->value_past_switches(arguments_, crossed, partials_, past_switch).value_or(0);
   changes_now_ = false;
   for (std::size_t j = 0; j < partials_.size(); ++j) changes_now_ = changes_now_ || (changing_[j] && partials_[j] != 0);
   if (switches.empty()) return false;

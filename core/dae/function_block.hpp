@@ -20,7 +20,7 @@ class FunctionBlock {
   /// The output at the arguments, with its rate; NaN where it, or one of its slopes, is not finite. If the sides are not held, they
   /// are those at the arguments, but for switches that have fired.
   Dual value(bool held);
-  /// Whether a switch, of this function or of one that gives an argument, was past its threshold then.
+  /// Whether a switch, of this function or of one that gives an argument, was past its threshold at the last evaluation.
   bool past_switch() const { return past_switch_; }
   /// Derivative by an argument at the last evaluation.
   double partial(std::size_t argument) const { return partials_[argument]; }

@@ -40,7 +40,9 @@ std::vector<int> EventTransition::select_modes(double t, double h, const Fired& 
   if (breaks_loose(selection) && h > least && !breaks_loose(ahead(least))) {
     while (breaks_loose(selection)) selection = ahead(h = std::max(least, numerics::onset_step_ratio * h));
   }
-  while (stops_within(selection, state) && h > least) selection = ahead(h = std::max(least, numerics::onset_step_ratio * h));
+  // Not much shorter: round-off of the dashpots' forces would hide the changes of the springs' forces.
+  const double shortest = std::max(least, numerics::onset_step_ratio * numerics::onset_step_ratio * h);
+  while (stops_within(selection, state) && h > shortest) selection = ahead(h = std::max(shortest, numerics::onset_step_ratio * h));
   const ConvexNetwork& problem = selection.problem;
   refuse_blocked_motions(t, problem);
   for (std::size_t n = 0; n < nodes; ++n) {
@@ -162,7 +164,7 @@ bool EventTransition::breaks_loose(const ModeSelection& selection) const {
   return false;
 }
 
-/// Whether some slider that slips now comes to rest within h only.
+/// Whether a slipping slider between nodes with masses stops during the time h, rather than at the event.
 bool EventTransition::stops_within(const ModeSelection& selection, const State& state) const {
   for (std::size_t k = 0; k < selection.slider.size(); ++k) {
     const Branch& b = network_.sliders[k].branch;

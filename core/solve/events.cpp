@@ -147,19 +147,22 @@ double NetworkEvents::band(int k) const {
   return which == of_slider && dae_.structure().stuck[at(slider)] && !moved_apart(slider) ? force_band(slider) : 0;
 }
 
-void NetworkEvents::refuse_contradiction(double t, int slider, double event_function) const {
-  const bool stuck = dae_.structure().stuck[at(slider)];
-  const double bound = dae_.inputs().box(at(slider)).largest();
-  // Where the bounds are 0 or infinite, round-off has nothing to be compared with.
-  if (stuck && (moved_apart(slider) || bound == 0)) return;
-  const double scale = stuck ? std::max(bound, tolerances_.held_seen(slider)) : tolerances_.largest_velocity();
-  if (event_function >= -numerics::slip_against_force * scale) return;
+void NetworkEvents::refuse_contradictions(double t) const {
   const Network& network = dae_.network();
-  const Branch& branch = network.sliders[at(slider)].branch;
-  throw SimulationError(network.spot_of(branch.element), fmt::format(
-      "{} no motion was found in which `{}` {}: the values of {} may lie too far apart for double "
-      "precision; check them",
-      rheonet::at_time(*network.scene, t), network.name_of(branch), stuck ? "sticks within its bounds" : "slips the way it is pushed", format_list(elements_at(network, {branch.a, branch.b}))));
+  for (std::size_t i = 0; i < sliders_.size(); ++i) {
+    const int k = sliders_[i];
+    const bool stuck = dae_.structure().stuck[at(k)];
+    const double bound = dae_.inputs().box(at(k)).largest();
+    // Where the bounds are 0 or infinite, round-off has nothing to be compared with.
+    if (stuck && (moved_apart(k) || bound == 0)) continue;
+    const double scale = stuck ? std::max(bound, tolerances_.held_seen(k)) : tolerances_.largest_velocity();
+    if (at_begin_[law_margin_.size() + i] >= -numerics::slip_against_force * scale) continue;
+    const Branch& branch = network.sliders[at(k)].branch;
+    throw SimulationError(network.spot_of(branch.element), fmt::format(
+        "{} no motion was found in which `{}` {}: the values of {} may lie too far apart for double "
+        "precision; check them",
+        rheonet::at_time(*network.scene, t), network.name_of(branch), stuck ? "sticks within its bounds" : "slips the way it is pushed", format_list(elements_at(network, {branch.a, branch.b}))));
+  }
 }
 
 void NetworkEvents::begin(double t, const double* y, const double* yp) {
@@ -184,7 +187,6 @@ void NetworkEvents::begin(double t, const double* y, const double* yp) {
   for (std::size_t i = 0; i < sliders_.size(); ++i) {
     const int k = sliders_[i];
     const double g = at_begin_[law_margin_.size() + i];
-    refuse_contradiction(t, k, g);
     margin_[at(k)] = margin(g);
   }
   const std::size_t losses = events_.size() - loss_margin_.size(), limits = losses - limit_margin_.size();

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <tuple>
 
 #include "core/base/index.hpp"
 #include "core/base/numerics.hpp"
@@ -60,7 +61,12 @@ struct ExactArc::Implementation {
     dae.consistency_matrix(begin.t, y0.data(), entries.data());
     MatrixXd both = dense();
     for (present = 0; present < known.size(); ++present) {
-      if (equations().functions() == functions && equations().are(K, both)) return;
+      if (equations().functions() != functions || !equations().are(K, both)) continue;
+      if (!equations().serve(length)) {
+        equations() = LinearEquations(dae, std::move(K), std::move(both), functions, length);
+        next_level = 0;
+      }
+      return;
     }
     if (known.size() >= numerics::arc_modes_kept) known.clear();
     present = known.size();
@@ -165,11 +171,15 @@ struct ExactArc::Implementation {
     const VectorXd values = y0 + y * now;
     for (Index i = 0; i < n; ++i) {
       if (std::abs(values(i)) >= numerics::arc_base * std::abs(y0(i)) || std::abs(y0(i)) <= numerics::arc_share * tolerance[at(static_cast<int>(i))]) continue;
+      const auto before = std::tuple(y0, base, given);
       y0 = values;
       base = from;
-      z.setZero();
-      find_given(equations().functions());
-      equations().respond_to(given, length - base);
+      if (find_given(equations().functions())) {
+        z.setZero();
+        equations().respond_to(given, length - base);
+      } else {
+        std::tie(y0, base, given) = before;
+      }
       return;
     }
   }

@@ -5,6 +5,7 @@
 
 #include "core/base/numerics.hpp"
 #include "core/base/roundoff.hpp"
+#include "core/network/error.hpp"
 
 namespace rheonet {
 
@@ -19,7 +20,11 @@ bool leaps_over_law(System& system, const Tolerances& tolerances) {
     const double t = end - length / part;
     integrator.interpolate(t, 0, y);
     integrator.interpolate(t, 1, yp);
-    system.consistency.derivative(t, y, rates);
+    try {
+      system.consistency.derivative(t, y, rates);
+    } catch (const SimulationError&) {  // the polynomial leaves the domain of a law there: nothing can be said
+      break;
+    }
     for (std::size_t i = 0; i < rates.size(); ++i) {
       leaps = leaps || (dae.differential(static_cast<int>(i)) && std::abs(rates[i] - yp[i]) * length > numerics::leapt_change * tolerances.values()[i]);
     }

@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numbers>
 #include <utility>
@@ -142,7 +143,7 @@ MatrixXd scaled_inverse(const MatrixXd& matrix) {
 }  // namespace
 
 LinearEquations::LinearEquations(const Dae& dae, MatrixXd K, MatrixXd both, TimeFunctions functions, double interval)
-    : K_(std::move(K)), both_(std::move(both)), functions_(std::move(functions)) { eliminate(dae, 1 / interval); }
+    : K_(std::move(K)), both_(std::move(both)), functions_(std::move(functions)), interval_(interval) { eliminate(dae, 1 / interval); }
 
 void LinearEquations::eliminate(const Dae& dae, double slowest) {
   const Index n = K_.rows();
@@ -201,7 +202,9 @@ void LinearEquations::respond_to(const MatrixXd& h, double interval) {
   const double slow_enough = fastest > 0 ? numerics::arc_shortest / fastest : std::numeric_limits<double>::infinity();
   const bool fits = shortest_ <= interval && (shortest_ == slow_enough || interval <= length(numerics::arc_levels));
   if (!levels_.empty() && fits && std::includes(pushed_.begin(), pushed_.end(), pushed.begin(), pushed.end())) return;
-  pushed_ = std::move(pushed);
+  StateGroup either;
+  std::set_union(pushed_.begin(), pushed_.end(), pushed.begin(), pushed.end(), std::back_inserter(either));
+  pushed_ = std::move(either);
   levels_.clear();
   // A power of 2, so that another interval seldom asks for another length.
   shortest_ = std::min(slow_enough, std::exp2(std::floor(std::log2(interval))));

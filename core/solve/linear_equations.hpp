@@ -33,8 +33,8 @@ struct StepNodes {
 /// The nodes, which are the same for all steps.
 const StepNodes& step_nodes();
 
-/// M d' + K d = h(t) with constant matrices. The rows with derivatives give the states z = M d, the others are algebraic: [M; K] d = [z; h],
-/// z' = A z + L h. The inputs h are sums of functions of time. One matrix gives the response of z to its own start, and one its response to each
+/// M d' + K d = h(t) with constant matrices. The rows with derivatives give the states M d, the others are algebraic: [M; K] d = [M d; h].
+/// Scaled and separated by their rates, the states are z, with z' = A z + L h. The inputs h are sums of functions of time. One matrix gives the response of z to its own start, and one its response to each
 /// function. They are kept for all nodes of steps of the lengths h0, 2 h0, 4 h0, ... Taylor's series makes those of the shortest step, and
 /// doubling the others.
 class LinearEquations {
@@ -43,6 +43,8 @@ class LinearEquations {
   LinearEquations(const Dae& dae, Eigen::MatrixXd K, Eigen::MatrixXd both, TimeFunctions functions, double interval);
 
   bool are(const Eigen::MatrixXd& K, const Eigen::MatrixXd& both) const { return K_ == K && both_ == both; }
+  /// Whether they were made for an interval of this length [s] or for about as long a one. In a longer one, slower motions are apart from fast ones.
+  bool serve(double interval) const { return interval <= 2 * interval_; }
   /// False if they have no unique solution.
   bool regular() const { return regular_; }
   /// Sums of the magnitudes of the terms of each row of K d.
@@ -86,6 +88,7 @@ class LinearEquations {
   Eigen::MatrixXd K_, both_;
   bool regular_ = false;
   Eigen::MatrixXd A_, L_, of_states_, of_given_;
+  double interval_;
   std::vector<StateGroup> groups_;
   struct Extremes { double oscillation = 0, mixed_decay = 0; };  ///< Fastest rates: of oscillations, and of decays that are not separate from slow motions [1/s].
   std::optional<Extremes> extremes_;

@@ -61,8 +61,8 @@ class Separation {
     }
   }
 
-  /// Takes from `group` the states that decay fastest. Eliminates one after the other, until the rates of those that are left are much smaller:
-  /// what the slow ones do while the others follow them. Returns none, and leaves the group as it is, if it does not come to that.
+  /// Takes from `group` the states that decay fastest: eliminates one after the other until all rates that are left (Schur complement) are smaller by
+  /// `numerics::arc_gap`. Returns none, and leaves the group as it is, if there is no such gap.
   StateGroup fastest(StateGroup& group) const {
     MatrixXd rates = A_(group, group);
     StateGroup slow = group, fast;
@@ -90,7 +90,9 @@ class Separation {
 
   /// False if their motions cannot be told apart.
   bool separate(const StateGroup& slow, const StateGroup& fast) {
+    const MatrixXd rows = rows_, S = S_;
     const bool apart = leave_fast_parts(slow, fast) && follow(slow, fast);
+    if (!apart) rows_ = rows, S_ = S;
     A_(slow, slow) = block(slow, slow);
     A_(fast, fast) = block(fast, fast);
     A_(slow, fast) = apart ? MatrixXd::Zero(static_cast<Index>(slow.size()), static_cast<Index>(fast.size())) : block(slow, fast);
@@ -98,8 +100,8 @@ class Separation {
     return apart;
   }
 
-  /// Takes from the slow states Q f, their part of the fast motions. What is left of a row of [R E] is exact where the same force or velocity acts on several
-  /// states. It would be the round-off of large numbers in A. Each round takes what the previous ones left.
+  /// Takes from the slow states Q f, their part of the fast motions. Rows of [R E] are subtracted, where a force or velocity that acts on several states
+  /// cancels exactly; in A its round-off would be left. Each round takes what the previous ones left.
   bool leave_fast_parts(const StateGroup& slow, const StateGroup& fast) {
     for (int round = 0; round < numerics::arc_gap_rounds; ++round) {
       const MatrixXd Q = divided_by(block(slow, fast), block(fast, fast));

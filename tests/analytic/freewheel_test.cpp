@@ -252,7 +252,7 @@ void check_impact(const Row& row) {
 
 TEST_CASE("freewheel: its power, taken in by a block, is 0 through all stops") {
   const RunTable rows = simulate(R"([elements]
-push = { type = "force", at = "a", force = { sine = 4, frequency = 1 } }
+push = { type = "force", at = "a", force = { sine = 4, frequency = 1, phase = 3 } }
 m = { type = "mass", at = "a", mass = 2 }
 free = { type = "freewheel", between = ["a", "ground"] }
 heat = { type = "integrator", in = "free.power" }
@@ -260,6 +260,8 @@ heat = { type = "integrator", in = "free.power" }
 stop = 3
 )", 1e-6);
   for (const double heat : rows["heat.out"]) CHECK_EQ(heat, 0);
+  CHECK(rows.scale("a.velocity") > 0.1);
+  CHECK(rows.scale("free.force") > 0.1);
 }
 
 }  // namespace

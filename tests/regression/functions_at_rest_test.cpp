@@ -75,6 +75,7 @@ r  = { type = "ratchet", between = ["x", "ground"] }
 stop = "2 s"
 )toml", 1e-6);
   for (std::size_t row = 0; row < rows.time().size(); ++row) CHECK_EQ(rows["r.force"][row], 0);
+  CHECK(rows.scale("x.velocity") > 0.1);
 }
 
 }  // namespace rheonet::test
