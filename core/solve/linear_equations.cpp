@@ -176,7 +176,7 @@ bool LinearEquations::too_stiff(double interval) {
     extremes_.emplace();
     for (const StateGroup& group : groups_) {
       const Eigen::VectorXcd rates = MatrixXd(A_(group, group)).eigenvalues();
-      extremes_->oscillation = std::max(extremes_->oscillation, rates.imag().maxCoeff());
+      extremes_->oscillation = std::max(extremes_->oscillation, rates.cwiseAbs().maxCoeff());  // rates of what decays faster would be round-off
       const double fastest = rates.cwiseAbs().maxCoeff(), slowest = rates.cwiseAbs().minCoeff();
       if (fastest > numerics::arc_gap * numerics::arc_gap * slowest) extremes_->mixed_decay = std::max(extremes_->mixed_decay, -rates.real().minCoeff());
     }

@@ -37,7 +37,7 @@ std::optional<MatrixXd> fixed_point(std::size_t rows, std::size_t columns, Next 
   return {};
 }
 
-MatrixXd divided_by(const MatrixXd& X, const MatrixXd& Y) { return Y.transpose().partialPivLu().solve(X.transpose()).transpose(); }
+MatrixXd inverse_of(const MatrixXd& X) { return Eigen::FullPivLU<MatrixXd>(X).inverse(); }
 
 class Separation {
  public:
@@ -104,7 +104,7 @@ class Separation {
   /// cancels exactly; in A its round-off would be left. Each round takes what the previous ones left.
   bool leave_fast_parts(const StateGroup& slow, const StateGroup& fast) {
     for (int round = 0; round < numerics::arc_gap_rounds; ++round) {
-      const MatrixXd Q = divided_by(block(slow, fast), block(fast, fast));
+      const MatrixXd Q = block(slow, fast) * inverse_of(block(fast, fast));
       if (!Q.allFinite()) return false;
       rows_(slow, Eigen::all) -= Q * rows_(fast, Eigen::all);
       S_(Eigen::all, fast) += S_(Eigen::all, slow) * Q;
@@ -117,12 +117,12 @@ class Separation {
   /// Takes from the fast states P s, with which they follow the slow ones.
   bool follow(const StateGroup& slow, const StateGroup& fast) {
     const MatrixXd ss = block(slow, slow), fs = block(fast, slow);
-    const Eigen::PartialPivLU<MatrixXd> ff(block(fast, fast));
-    const auto P = fixed_point(fast.size(), slow.size(), [&](const MatrixXd& X) -> MatrixXd { return ff.solve(X * ss - fs); });
+    const MatrixXd ff = inverse_of(block(fast, fast));
+    const auto P = fixed_point(fast.size(), slow.size(), [&](const MatrixXd& X) -> MatrixXd { return ff * (X * ss - fs); });
     if (!P) return false;
     S_(Eigen::all, slow) += S_(Eigen::all, fast) * *P;
     // Unknowns that are small differences, such as the velocity of a dashpot on a light mass, follow from the rates that they cause.
-    S_(Eigen::all, slow) += S_(Eigen::all, fast) * ff.solve(*P * ss - block(fast, slow));
+    S_(Eigen::all, slow) += S_(Eigen::all, fast) * (ff * (*P * ss - block(fast, slow)));
     rows_(fast, Eigen::all) -= *P * rows_(slow, Eigen::all);
     return true;
   }

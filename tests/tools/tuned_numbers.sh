@@ -20,6 +20,8 @@ core/result/energy.cpp points
 core/result/energy.cpp abscissae
 core/result/energy.cpp weights
 core/result/energy.hpp remembered
+core/result/row_store.cpp memory
+core/result/row_store.cpp smallest_block
 core/solve/events.hpp of_slider
 core/solve/integrator.hpp highest_order
 core/solve/tolerances.hpp sorts

@@ -33,6 +33,8 @@ void take_lock(PyThreadState* state) {
 
 }  // namespace
 
+namespace {
+
 /// All threads that are without the lock, and whether the interpreter exits.
 class Exit {
  public:
@@ -104,6 +106,8 @@ class Exit {
   bool waited_ = false;  ///< The interpreter goes on to exit, without waiting for further threads.
   std::thread::id ended_by_;
 };
+
+}  // namespace
 
 Unlocked::Unlocked(std::atomic<bool>* interrupt) : interrupt_(interrupt) {
   end_thread_at_exit();
