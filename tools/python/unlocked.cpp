@@ -33,10 +33,8 @@ void take_lock(PyThreadState* state) {
 
 }  // namespace
 
-namespace {
-
 /// All threads that are without the lock, and whether the interpreter exits.
-class Exit {
+class Unlocked::Exit {
  public:
   static Exit& instance() {
     static Exit& exit = *new Exit;  // never destroyed: sleeping threads may outlive main()
@@ -107,8 +105,6 @@ class Exit {
   std::thread::id ended_by_;
 };
 
-}  // namespace
-
 Unlocked::Unlocked(std::atomic<bool>* interrupt) : interrupt_(interrupt) {
   end_thread_at_exit();
   Exit::instance().add(this);
@@ -133,13 +129,13 @@ void Unlocked::with_lock(const std::function<void()>& python) {
 }
 
 void end_thread_at_exit() {
-  if (!Exit::instance().ends_this_thread()) return;
+  if (!Unlocked::Exit::instance().ends_this_thread()) return;
   PyErr_SetNone(PyExc_SystemExit);
   throw py::error_already_set();
 }
 
 void wait_at_exit() {
-  py::module_::import("atexit").attr("register")(py::cpp_function([] { Exit::instance().end_all(); }));
+  py::module_::import("atexit").attr("register")(py::cpp_function([] { Unlocked::Exit::instance().end_all(); }));
 }
 
 }  // namespace rheonet::python

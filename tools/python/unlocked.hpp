@@ -12,6 +12,8 @@ namespace rheonet::python {
 /// waits until the threads have the lock again.
 class Unlocked {
  public:
+  class Exit;  ///< All threads that are without the lock, and whether the interpreter exits.
+
   /// `interrupt`: set to true if the interpreter exits. Throws SystemExit in a thread that begins while the interpreter exits.
   explicit Unlocked(std::atomic<bool>* interrupt = nullptr);
   ~Unlocked();
@@ -26,7 +28,6 @@ class Unlocked {
   std::atomic<bool>* interrupt_;
   PyThreadState* state_;
   bool calls_python_ = false;
-  friend class Exit;
 };
 
 /// Throws SystemExit if the interpreter exits, which ends this thread without a message.
