@@ -29,9 +29,17 @@ const held = [
     ['JSON for Modern C++', 'nlohmann-json3-dev'], ['toml++', 'libtomlplusplus-dev'], ['The run-time libraries of Emscripten', 'emscripten']]
     .map(([name, ...packages]) => [name, packages.map((each) => `/usr/share/doc/${each}/copyright`).find(existsSync)]),
 ];
+
+// Of a Debian copyright file, what concerns these files: the module holds the run-time libraries of Emscripten (system, src), not its tests and tools.
+function about(copyright, concerned) {
+  const stanzas = copyright.split(/\n(?:[ \t]*\n)+/), field = (stanza, name) => stanza.match(new RegExp(`^${name}:((?:.*\n?)(?:[ \\t].*\n?)*)`, 'm'))?.[1] ?? '';
+  const kept = stanzas.filter((stanza) => /^Files:/m.test(stanza) && field(stanza, 'Files').trim().split(/\s+/).some(concerned));
+  const names = kept.flatMap((stanza) => field(stanza, 'License').split('\n')[0].trim().split(/\s+(?:and|or|with)\s+|,\s*/));
+  return stanzas.filter((stanza) => !/^(Files|License):/m.test(stanza) || kept.includes(stanza) || names.includes(field(stanza, 'License').split('\n')[0].trim())).join('\n\n');
+}
 const licences = [read(web, 'NOTICE'), ...held.map(([name, file]) => {
   if (!file) throw new Error(`${name} has no text of its licence`);
-  return `${'-'.repeat(78)}\n${name}\n\n${readFileSync(file, 'utf8').trim()}\n`;
+  return `${'-'.repeat(78)}\n${name}\n\n${(name.endsWith('Emscripten') ? about(readFileSync(file, 'utf8'), (each) => each === '*' || /^system\/lib\/(?!.*(test|bench|fuzz))/.test(each)) : readFileSync(file, 'utf8')).trim()}\n`;
 })].join('\n');
 
 const packed = {
