@@ -166,7 +166,7 @@ class EventTransition {
   double bound(std::size_t slider, int side) const;
   /// Its rate of change [N/s].
   double bound_rate(std::size_t slider, int side) const;
-  /// Neither it nor a node that rigid links join to it has a mass or a prescribed motion.
+  /// The node has no mass and no prescribed motion, and rigid links join it to no node that has.
   bool massless(NodeId node) const { return !firm_[static_cast<std::size_t>(node)]; }
   /// Nodes are numbered as in the equations, so that two ways to write a network give the same numbers.
   int slot(NodeId node) const { return structure_.rank[static_cast<std::size_t>(node)]; }

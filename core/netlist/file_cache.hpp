@@ -32,7 +32,7 @@ class FileCache {
   /// As std::filesystem::canonical.
   std::filesystem::path canonical(const std::filesystem::path& path, std::error_code& failed);
 
-  /// What was read so far, to give it to the cache of another process.
+  /// All files that were read so far, as the cache of another process can take them.
   struct Contents {
     std::map<std::filesystem::path, std::string> texts;
     std::map<std::filesystem::path, std::filesystem::path> canonical;

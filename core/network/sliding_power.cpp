@@ -9,7 +9,7 @@ namespace rheonet {
 
 Dual SlidingPower::force(std::span<const double> arguments, int by) const {
   const int side = arguments[0] < 0 ? -1 : 1;
-  // What a freewheel holds does not move; a velocity there is that of the event at which it stops.
+  // A freewheel does not move backwards. A small velocity that way is the error of the event at which it stops.
   const auto finite = [](const Dual& bound) { return std::isinf(bound.value) ? Dual(0) : bound; };
   if (varying_.empty()) return finite(box_.at(side).sliding);
   std::vector<Dual> values(values_.begin(), values_.end());

@@ -31,7 +31,7 @@ class RowStore {
     std::size_t rows = 0;
     std::vector<double> block = {};      ///< The last rows; while it is read: those around the next row.
     std::vector<std::int64_t> blocks = {};  ///< Where its blocks begin in the file; all of one size.
-    std::size_t begun = 0, place = 0;  ///< Of reading: blocks that have been begun, and the next number in `block`.
+    std::size_t begun = 0, place = 0;  ///< While it is read: the number of blocks that were begun, and the place of the next number in `block`.
     std::vector<double> last = {};       ///< While earlier blocks are read: those rows that were still in memory.
   };
   void write(Run& run);
@@ -40,8 +40,8 @@ class RowStore {
   std::size_t rows_of_block(const Run& run) const;
 
   std::vector<Run> runs_;
-  std::size_t bytes_;  ///< Of a block, about.
-  std::mutex mutex_;   ///< Of the file.
+  std::size_t bytes_;  ///< The size of a block is not larger, unless a single row is.
+  std::mutex mutex_;   ///< Guards the file.
   int file_ = -1;
   std::int64_t end_ = 0;
 };

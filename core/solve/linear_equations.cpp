@@ -176,12 +176,12 @@ bool LinearEquations::too_stiff(double interval) {
     extremes_.emplace();
     for (const StateGroup& group : groups_) {
       const Eigen::VectorXcd rates = MatrixXd(A_(group, group)).eigenvalues();
-      extremes_->oscillation = std::max(extremes_->oscillation, rates.cwiseAbs().maxCoeff());  // rates of what decays faster would be round-off
+      extremes_->fastest = std::max(extremes_->fastest, rates.cwiseAbs().maxCoeff());
       const double fastest = rates.cwiseAbs().maxCoeff(), slowest = rates.cwiseAbs().minCoeff();
       if (fastest > numerics::arc_gap * numerics::arc_gap * slowest) extremes_->mixed_decay = std::max(extremes_->mixed_decay, -rates.real().minCoeff());
     }
   }
-  return extremes_->oscillation * interval > numerics::arc_steps || extremes_->mixed_decay * interval > numerics::arc_decays;
+  return extremes_->fastest * interval > numerics::arc_steps || extremes_->mixed_decay * interval > numerics::arc_decays;
 }
 
 VectorXd LinearEquations::drive(const VectorXd& z, const MatrixXd& pushes) const {

@@ -90,7 +90,7 @@ class LinearEquations {
   Eigen::MatrixXd A_, L_, of_states_, of_given_;
   double interval_;
   std::vector<StateGroup> groups_;
-  struct Extremes { double oscillation = 0, mixed_decay = 0; };  ///< Fastest rates: of oscillations, and of decays that are not separate from slow motions [1/s].
+  struct Extremes { double fastest = 0, mixed_decay = 0; };  ///< The fastest rate, and that of decays that are not separate from slow motions [1/s].
   std::optional<Extremes> extremes_;
   TimeFunctions functions_;
   std::vector<Eigen::Index> pushed_;  ///< states that the inputs push, ascending

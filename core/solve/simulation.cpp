@@ -285,15 +285,12 @@ class Run {
         outcome = Integrator::Outcome::event;
         view_of_step();
       }
-      if (outcome == Integrator::Outcome::event && settings_.locate_events && repeats_ < numerics::leapt_repeats && leaps_over_law(*system_, tolerances_)) {
+      if (outcome == Integrator::Outcome::event && settings_.locate_events && leaps_.repeat(*system_, tolerances_)) {
         repeat_step(until, shrink);
         continue;
       }
       t = system_->integrator.time();
-      if (repeats_ > 0 && (outcome == Integrator::Outcome::event || t > repeated_until_)) {
-        repeats_ = 0;
-        limit_step();
-      }
+      if (leaps_.passed(t, outcome == Integrator::Outcome::event)) limit_step();
       if (settings_.profile) settings_.profile->step(system_->integrator);
       error_model_.follow(t, view);
       tolerances_.trust(true);
@@ -340,8 +337,6 @@ class Run {
   /// Goes back to the beginning of the last step, and on in parts of it.
   void repeat_step(double until, double shrink) {
     const double t = system_->integrator.previous_time(), part = (system_->integrator.time() - t) / numerics::leapt_parts;
-    repeated_until_ = system_->integrator.time();
-    ++repeats_;
     system_->integrator.interpolate(t, 0, y_);
     system_->consistency.project(t, y_);
     system_->consistency.derivative(t, y_, yp_);
@@ -500,8 +495,7 @@ class Run {
   double impact_ = -1, hopped_ = 0;  ///< Time of the last impact after which a contact was thrown back, and of the one before [s].
   bool stopped_ = false; ///< The last interval ended with a step that the integrator can continue from.
   long steps_ = 0;       ///< In the last interval.
-  int repeats_ = 0;      ///< of steps on the way to the same event
-  double repeated_until_ = 0;  ///< End of the step that is repeated [s].
+  LeapsOverLaws leaps_;
   bool smooth_ = false;  ///< The last discontinuity was negligible.
   std::shared_ptr<System> system_;
   std::vector<double> y_, yp_;

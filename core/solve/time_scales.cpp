@@ -101,7 +101,7 @@ class Separation {
   }
 
   /// Takes from the slow states Q f, their part of the fast motions. Rows of [R E] are subtracted, where a force or velocity that acts on several states
-  /// cancels exactly; in A its round-off would be left. Each round takes what the previous ones left.
+  /// cancels exactly; in A its round-off would be left. Each round takes the rest of the previous one.
   bool leave_fast_parts(const StateGroup& slow, const StateGroup& fast) {
     for (int round = 0; round < numerics::arc_gap_rounds; ++round) {
       const MatrixXd Q = block(slow, fast) * inverse_of(block(fast, fast));

@@ -8,12 +8,12 @@ namespace rheonet {
 /// States whose motions have comparable rates.
 using StateGroup = std::vector<Eigen::Index>;
 
-/// Makes motions with very different rates independent of one another. The states z of z' = A z + (R G + E) h, A = R S, d = S z + G h, change to
-/// others, of which the fast and the slow ones do not act on one another: those entries of A are exactly 0. So round-off of what is fast does not
-/// reach what is slow, which would lose its digits in powers of A. What decays is separated from what is slower by a factor `numerics::arc_gap`;
-/// motions slower than `slowest` [1/s] count as standing still. `rows` is [R E]. Returns the groups of states, slow ones first.
+/// Separates fast decays from slow motions in z' = A z + (R G + E) h with A = R S and d = S z + G h, by a change of the states z. Afterwards fast
+/// and slow states do not act on one another: the entries of A between them are exactly 0. Otherwise the round-off of fast states would take the
+/// digits of slow ones in powers of A.
 ///
-/// Subspace iteration, as the gap is wide: G. W. Stewart, SIAM Review 15 (1973) 727.
+/// A gap is a ratio of rates above `numerics::arc_gap`. Motions slower than `slowest` [1/s] count as standing still. `rows` is [R E]. Returns the
+/// groups of states, slow ones first. Method: subspace iteration across the gap (G. W. Stewart, SIAM Review 15 (1973) 727).
 std::vector<StateGroup> separate_time_scales(Eigen::MatrixXd& A, Eigen::MatrixXd& rows, Eigen::MatrixXd& S, double slowest);
 
 }  // namespace rheonet

@@ -64,8 +64,8 @@ stop = 3
   }
 }
 
-// Output and input shaft come to rest together, as the second clutch sticks. From there on the second clutch and the brake slip, and the first
-// clutch goes on: the times are those of an integration by modes of its own.
+// Output and input shaft come to rest together, as the second clutch sticks. Then the second clutch and the brake slip, and the first
+// clutch goes on slipping. An independent integration, mode by mode, gives the time at which it sticks.
 TEST_CASE("a gearbox with two clutches and a brake, that come to rest at the same time") {
   const std::string toml = R"(domain = "rotation"
 [elements]

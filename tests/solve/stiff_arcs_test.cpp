@@ -1,4 +1,4 @@
-// Stiff scenes on exact arcs: what is fast decays, and what is slow keeps its digits.
+// Stiff scenes on exact arcs: slow motions keep their digits beside fast decays.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
@@ -6,6 +6,7 @@
 #include <cmath>
 #include <complex>
 #include <string>
+#include <utility>
 
 #include "tests/support/simulate.hpp"
 
@@ -58,7 +59,7 @@ TEST_CASE("stiff arcs: an oscillator with a little damping behind a decay a hund
       for (const Complex p : poles) sum += Complex(F) * (Complex(k0 + k1) + Complex(c) * p) / (p * slope(p)) * std::exp(p * Complex(t));
       return static_cast<double>(sum.real());
     };
-    // Their damping is the small rest of what the deflections of the springs have in common.
+    // The damping is a small difference of rates of the springs' deflections.
     CHECK_LE(error_of(rows, "a.position", x), 1e-8);
     CHECK_LE(std::abs(summary.missing), 1e-6 * summary.largest);
   }
@@ -73,7 +74,7 @@ c1 = { type = "dashpot", between = ["n1", "ground"], damping = 2e3 }
 f  = { type = "force", at = "n0", force = 1 })", 500, summary);
   CHECK_LE(error_of(rows, "k1.force", [](double t) { return -std::expm1(-t / 1000); }), 1e-12);
   CHECK_LE(error_of(rows, "k0.force", [](double t) { return t > 0 ? 1.0 : 0.0; }), 1e-12);
-  // At first the velocity is 1e9 m/s. Its digits are not those of what is left of it.
+  // The velocity falls from 1e9 m/s to 1e-5 m/s: increments count from new values on the way.
   CHECK_LE(std::abs(summary.missing), 1e-12 * summary.largest);
   CHECK_LE(summary.steps, 200);
 }
@@ -93,6 +94,32 @@ TEST_CASE("stiff arcs: a chain of masses and dashpots of many time constants com
   const RunTable rows = on_arcs(elements, 50, summary);
   for (int i = 0; i < n; ++i) CHECK_LE(std::abs(rows[fmt::format("n{}.velocity", i)].back() - 0.25 / total), 1e-13);
   CHECK_LE(std::abs(summary.missing), 1e-12 * summary.largest);
+}
+
+// The same equations on an interval of a microsecond, in which all motions are slow, and then on one of minutes.
+TEST_CASE("stiff arcs: a short interval before a long one") {
+  Summary summary;
+  const RunTable rows = on_arcs(R"(push = { type = "force", at = "a", force = { table = [[0, 0], [1e-6, 2.3], [1.2e-6, 2.3], [3e-6, 2.3]] } }
+m  = { type = "mass", at = "a", mass = 1.1 }
+k  = { type = "spring", between = ["a", "b"], stiffness = 40 }
+c  = { type = "dashpot", between = ["a", "b"], damping = 1e-5 }
+k1 = { type = "spring", between = ["b", "ground"], stiffness = 60 }
+c1 = { type = "dashpot", between = ["a", "ground"], damping = 0.3 }
+)", 400, summary);
+  CHECK_LE(summary.steps, 4000);
+  CHECK_LE(std::abs(summary.missing), 1e-11 * summary.largest);
+  // 40 and 60 N/m in series
+  CHECK_LE(std::abs(rows["a.position"].back() - 2.3 / 24), 1e-13);
+}
+
+TEST_CASE("stiff arcs: what decays within 1e-12 of the run is left to IDA") {
+  for (const auto& [mass, arcs] : {std::pair(1e-9, true), std::pair(1e-11, false)}) {
+    Summary summary;
+    const RunTable rows = simulate(scene_of(fmt::format("[elements]\nm = {{ type = \"mass\", at = \"b\", mass = {} }}\nc = {{ type = \"dashpot\", between = [\"b\", \"ground\"], damping = 1.3 }}\n"
+                                                        "push = {{ type = \"force\", at = \"b\", force = {{ sine = 0.7, frequency = 0.1 }} }}\n[simulate]\nstop = 100\n", mass)), &summary);
+    CHECK_EQ(summary.arc_steps, arcs ? summary.steps : 0);
+    CHECK_LE(error_of(rows, "b.velocity", [](double t) { return 0.7 / 1.3 * std::sin(0.2 * M_PI * t); }), 1e-6);
+  }
 }
 
 }  // namespace rheonet::test

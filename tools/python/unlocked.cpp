@@ -33,7 +33,6 @@ void take_lock(PyThreadState* state) {
 
 }  // namespace
 
-/// All threads that are without the lock, and whether the interpreter exits.
 class Unlocked::Exit {
  public:
   static Exit& instance() {

@@ -1,9 +1,10 @@
 // node pack.mjs WEB BUILD NETLISTS OUTPUT: puts the site together in OUTPUT, of the bundled pages in WEB, what build.sh has made in BUILD,
 // and the netlists.
-import { readdirSync, readFileSync, existsSync, mkdirSync, writeFileSync } from 'node:fs';
+import { readdirSync, readFileSync, mkdirSync, writeFileSync } from 'node:fs';
 import { dirname, join, relative } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { gzipSync } from 'node:zlib';
+import { licencesOfModule } from './licences.mjs';
 
 const here = dirname(fileURLToPath(import.meta.url));
 const [web, build, netlists, output] = process.argv.slice(2);
@@ -21,26 +22,7 @@ for (const entry of readdirSync(netlists, { withFileTypes: true, recursive: true
   files[`/netlists/${relative(netlists, path)}`] = entry.name === 'README.md' ? (text.match(/[\w-]+\.toml/g) ?? []).join('\n') : text;
 }
 
-// Third-party parts of the module, with their licences.
-const held = [
-  ['SUNDIALS 6.4.1 (BSD-3-Clause)', join(sources, 'sundials/LICENSE')],
-  ['AMD, BTF, COLAMD and KLU of SuiteSparse 5.12.0 (BSD-3-Clause, LGPL-2.1-or-later)', join(sources, 'suitesparse/LICENSE.txt')],
-  ...[['Boost', 'libboost-dev', 'libboost1.74-dev'], ['Eigen', 'libeigen3-dev'], ['fast_float', 'libfast-float-dev'], ['{fmt}', 'libfmt-dev'],
-    ['JSON for Modern C++', 'nlohmann-json3-dev'], ['toml++', 'libtomlplusplus-dev'], ['The run-time libraries of Emscripten', 'emscripten']]
-    .map(([name, ...packages]) => [name, packages.map((each) => `/usr/share/doc/${each}/copyright`).find(existsSync)]),
-];
-
-// Of a Debian copyright file, what concerns these files: the module holds the run-time libraries of Emscripten (system, src), not its tests and tools.
-function about(copyright, concerned) {
-  const stanzas = copyright.split(/\n(?:[ \t]*\n)+/), field = (stanza, name) => stanza.match(new RegExp(`^${name}:((?:.*\n?)(?:[ \\t].*\n?)*)`, 'm'))?.[1] ?? '';
-  const kept = stanzas.filter((stanza) => /^Files:/m.test(stanza) && field(stanza, 'Files').trim().split(/\s+/).some(concerned));
-  const names = kept.flatMap((stanza) => field(stanza, 'License').split('\n')[0].trim().split(/\s+(?:and|or|with)\s+|,\s*/));
-  return stanzas.filter((stanza) => !/^(Files|License):/m.test(stanza) || kept.includes(stanza) || names.includes(field(stanza, 'License').split('\n')[0].trim())).join('\n\n');
-}
-const licences = [read(web, 'NOTICE'), ...held.map(([name, file]) => {
-  if (!file) throw new Error(`${name} has no text of its licence`);
-  return `${'-'.repeat(78)}\n${name}\n\n${(name.endsWith('Emscripten') ? about(readFileSync(file, 'utf8'), (each) => each === '*' || /^system\/lib\/(?!.*(test|bench|fuzz))/.test(each)) : readFileSync(file, 'utf8')).trim()}\n`;
-})].join('\n');
+const licences = [read(web, 'NOTICE'), ...licencesOfModule(sources)].join('\n');
 
 const packed = {
   'worker.js': Buffer.from(`${read(wasm, 'rheonet.js')}\n${read(here, 'worker.js')}`),

@@ -226,7 +226,7 @@ class Scene:
         paths = _arguments.texts("values", values, ["k1.stiffness"])
         if not paths:
             raise ValueError("sensitivities() takes the path of at least one value")
-        overrides, library = _runs.overrides(self._changes), _runs.library()
+        overrides, library = _runs.overrides(self._changes), _runs.folders_of_laws()
         for path in paths:
             _runs.complete(self._source.read([*overrides, f"{path}*=1"], [], library, [], False))
         study = _rheonet.Sensitivities(self._source, overrides, library, paths, accuracy, progress)

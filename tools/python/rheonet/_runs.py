@@ -14,7 +14,7 @@ def overrides(changes):
 
 def read(source, changes, measures=None, records=(), plotted=False):
     """Reads a netlist. `changes`: text by path. `measures` take the place of its claims."""
-    return complete(source.read(overrides(changes), measures, library(), list(records), plotted))
+    return complete(source.read(overrides(changes), measures, folders_of_laws(), list(records), plotted))
 
 
 def complete(reading):
@@ -33,7 +33,7 @@ def run(scene, accuracy=None, certify=False, threads=1, progress=None, both_side
     return result
 
 
-def library():
+def folders_of_laws():
     """The folder that `include = ["library/..."]` falls back on: that of RHEONET_LIBRARY, of this package, or of the prefix that
     the package is installed in (PREFIX/lib/python3/dist-packages/rheonet)."""
     if chosen := os.environ.get("RHEONET_LIBRARY"):

@@ -135,7 +135,7 @@ class _Runs:
 def _outcome(scene, paths, measures, accuracy, raising, portable, item, progress=None):
     point, settings = item
     changes = {**scene._changes, **dict(zip(paths, settings))}
-    reading = scene._source.read(_runs.overrides(changes), measures, _runs.library(), [], False)
+    reading = scene._source.read(_runs.overrides(changes), measures, _runs.folders_of_laws(), [], False)
     try:
         result = _runs.run(type(scene)(scene._source, changes, _runs.complete(reading)), accuracy, progress=progress)
     except (NetlistError, SimulationError) as error:
