@@ -86,13 +86,13 @@ class LinearEquations {
   Level make_level(double of_step, const Level* half) const;
 
   Eigen::MatrixXd K_, both_;
+  TimeFunctions functions_;
+  double interval_;
   bool regular_ = false;
   Eigen::MatrixXd A_, L_, of_states_, of_given_;
-  double interval_;
   std::vector<StateGroup> groups_;
   struct Extremes { double fastest = 0, mixed_decay = 0; };  ///< The fastest rate, and that of decays that are not separate from slow motions [1/s].
   std::optional<Extremes> extremes_;
-  TimeFunctions functions_;
   std::vector<Eigen::Index> pushed_;  ///< states that the inputs push, ascending
   double shortest_ = 0;  ///< h0 [s]
   std::vector<Level> levels_;

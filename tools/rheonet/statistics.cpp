@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <boost/math/distributions/binomial.hpp>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -11,6 +10,7 @@
 #include <numeric>
 
 #include "core/netlist/csv_fields.hpp"
+#include "tools/rheonet/distributions.hpp"
 
 namespace rheonet::tool {
 namespace {
@@ -48,7 +48,7 @@ std::vector<Quantile> quantiles_of(OrderStatistics& values, const std::vector<do
   };
   std::vector<Ranks> of_each;
   for (const double p : probabilities) {
-    const boost::math::binomial below(static_cast<double>(count), p);
+    const Binomial below(static_cast<double>(count), p);
     Ranks r{1 + p * static_cast<double>(count - 1), static_cast<long>(boost::math::quantile(below, outside)),
             static_cast<long>(boost::math::quantile(complement(below, outside))) + 1};
     of_each.push_back(r);

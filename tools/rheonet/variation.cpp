@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <boost/math/distributions/normal.hpp>
 #include <cctype>
 #include <charconv>
 #include <cmath>
@@ -11,6 +10,7 @@
 #include <optional>
 
 #include "core/netlist/diagnostic.hpp"
+#include "tools/rheonet/distributions.hpp"
 #include "tools/rheonet/words.hpp"
 
 namespace rheonet::tool {
@@ -235,10 +235,10 @@ std::variant<Variation, NoVariation> read_variation(const std::string& text) {
 
 double normal_score(double probability) {
   constexpr double least = 0x1p-54;
-  return boost::math::quantile(boost::math::normal(), std::clamp(probability, least, 1 - 2 * least));
+  return boost::math::quantile(Normal(), std::clamp(probability, least, 1 - 2 * least));
 }
 
-double probability_of_score(double score) { return boost::math::cdf(boost::math::normal(), score); }
+double probability_of_score(double score) { return boost::math::cdf(Normal(), score); }
 
 std::string Distribution::quantile(double probability) const {
   switch (kind) {
