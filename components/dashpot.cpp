@@ -59,7 +59,7 @@ const RegisterComponent register_dashpot({
     .declaration =
         {
             .type = "dashpot",
-            .other_names = {"damper", "shock_absorber", "viscous_friction"},
+            .other_names = {"damper", "viscous_damper", "shock_absorber", "viscous_friction"},
             .ports = Declaration::Ports::between,
             .parameters =
                 {

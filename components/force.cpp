@@ -7,7 +7,7 @@ const RegisterComponent register_force({
     .declaration =
         {
             .type = "force",
-            .other_names = {"weight", "gravity", "load"},
+            .other_names = {"weight", "gravity", "load", "force_source", "motor"},
             .rotational_type = "torque",
             .ports = Declaration::Ports::at_or_between,
             .parameters = {{.name = "force", .quantity = Quantity::force, .kind = Parameter::Kind::signal,

@@ -14,9 +14,10 @@ std::optional<Misfit> zero_ratio(std::span<const double> v) {
   return Misfit{"ratio", "must not be 0: the first node would stand still, whatever the second does; join it to `ground` if it does"};
 }
 
-Declaration declared(const char* type, const char* summary, const char* ratio) {
+Declaration declared(const char* type, const char* summary, const char* ratio, std::vector<std::string> other_names = {}) {
   return {
       .type = type,
+      .other_names = std::move(other_names),
       .supported = true,
       .parameters = {{.name = "ratio", .quantity = Quantity::number, .lower = -unlimited, .symbol = "i", .description = ratio},
                      {.name = "efficiency", .quantity = Quantity::number, .fallback = 1.0, .upper = 1, .over = Quantity::velocity, .may_be_curve = true, .symbol = "eta_a",
@@ -47,7 +48,7 @@ double ratio(std::span<const double> v) { return v[0]; }
 
 const RegisterComponent register_gear(transmission(
     declared("gear", "two gear wheels, a worm gear or a belt: a constant ratio of two velocities, with or without losses",
-             "velocity of the first node over that of the second, not 0; negative where they turn against each other"),
+             "velocity of the first node over that of the second, not 0; negative where they turn against each other", {"gearbox", "gear_pair", "transmission"}),
     ratio,
     {.outline = "M.31 .35 A.15 .15 0 1 1 .31 .65 A.15 .15 0 1 1 .31 .35 Z M.65 .31 A.19 .19 0 1 1 .65 .69 A.19 .19 0 1 1 .65 .31 Z",
      .lines = "M0 .5 H.31 M.65 .5 H1"},

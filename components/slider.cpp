@@ -42,7 +42,7 @@ const RegisterComponent register_slider({
     .declaration =
         {
             .type = "slider",
-            .other_names = {"friction", "coulomb", "dry_friction", "brake", "clutch"},
+            .other_names = {"friction", "coulomb", "dry_friction", "brake", "clutch", "bearing"},
             .ports = Declaration::Ports::between,
             .parameters = {{.name = "coulomb", .quantity = Quantity::force, .lower_open = false, .may_be_infinite = true, .over = Quantity::velocity, .may_vary = true, .may_be_curve = true,
                             .coefficient_with = "normal", .from_block = true, .symbol = "Fc",

@@ -170,7 +170,7 @@ const RegisterComponent register_stop({
     .declaration =
         {
             .type = "stop",
-            .other_names = {"bumper", "buffer", "end_stop", "contact", "elastogap", "backlash"},
+            .other_names = {"bumper", "buffer", "end_stop", "hard_stop", "contact", "gap", "elastogap", "backlash"},
             .ports = Declaration::Ports::between,
             .parameters =
                 {

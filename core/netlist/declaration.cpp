@@ -5,14 +5,20 @@
 namespace rheonet {
 
 std::string called_here(std::string_view name, Declarations declarations) {
-  std::string wanted(name);
-  for (char& c : wanted) c = c == '-' ? '_' : 'A' <= c && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  const auto plain = [](std::string_view word) {
+    std::string letters;
+    for (const char c : word) {
+      if (c != '-' && c != '_') letters += 'A' <= c && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    }
+    return letters;
+  };
+  std::string types, in_rotation;
   for (const Declaration* d : declarations) {
-    if (std::find(d->other_names.begin(), d->other_names.end(), wanted) == d->other_names.end()) continue;
-    const std::string in_rotation = d->rotational_type.empty() ? "" : ", `" + d->rotational_type + "` in rotation";
-    return "it is called `" + d->type + "` here" + in_rotation;
+    if (std::none_of(d->other_names.begin(), d->other_names.end(), [&](const std::string& other) { return plain(other) == plain(name); })) continue;
+    types += (types.empty() ? "`" : " or `") + d->type + '`';
+    if (!d->rotational_type.empty()) in_rotation += ", `" + d->rotational_type + "` in rotation";
   }
-  return "";
+  return types.empty() ? "" : "it is called " + types + " here" + in_rotation;
 }
 
 }  // namespace rheonet

@@ -109,6 +109,21 @@ int begin_of_number(std::string_view line, int column) {
   return static_cast<int>(at) + 1;
 }
 
+/// The word without quotation marks that are not those of a netlist.
+std::string without_curly_quotes(std::string_view word) {
+  std::u32string plain = decode(word);
+  std::erase_if(plain, [](char32_t c) { return c >= U'\u2018' && c <= U'\u201F'; });
+  return encode(plain);
+}
+
+/// What would mend a key that ends before `found`, where `=` is expected.
+std::string hint_for_key(std::string_view found) {
+  if (found == ":") return "a value follows `=`";
+  if (!found.empty() && static_cast<unsigned char>(found.front()) >= 0x80U) return "a key is made of a to z, A to Z, 0 to 9, `_` and `-`";
+  if (!found.empty() && (is_letter(found.front()) || is_digit(found.front()))) return "a name has no spaces: my_spring, or my-spring";
+  return "";
+}
+
 /// Reports an error of toml++ in the words of this project, with a remedy.
 void report(const toml::parse_error& e, std::string_view text, int file, DiagnosticList& diagnostics) {
   std::string description(e.description());
@@ -139,25 +154,31 @@ void report(const toml::parse_error& e, std::string_view text, int file, Diagnos
     if (word.find('=') != word.npos)
       diagnostics.error(spot, "expected a value, found `" + word + "`", "is a closing bracket missing before it?");
     else
-      diagnostics.error(spot, "`" + word + "` is not a value", "a text stands in quotes: \"" + word + "\"");
+      diagnostics.error(spot, "`" + word + "` is not a value",
+                        (without_curly_quotes(word) == word ? "a text stands in quotes: \"" : "quotes are straight: \"") + without_curly_quotes(word) + "\"");
   } else if (says("expected value, saw") && line_ends) {
     diagnostics.error(spot, "a value is missing after `=`");
   } else if (says("expected '=', saw")) {
     diagnostics.error(spot,
-                   "expected `=` after the key, found " + (line_ends ? "the end of the line" : "`" + quoted() + "`"));
+                   "expected `=` after the key, found " + (line_ends ? "the end of the line" : "`" + quoted() + "`"), line_ends ? "" : hint_for_key(quoted()));
   } else if (says("expected ']', saw") && line_ends) {
     diagnostics.error(spot, "the header of a table is not closed", "close it with ]");
   } else if (says("inline table: expected") && line_ends) {
     diagnostics.error(spot, "the line ends within an inline table", one_line);
   } else if (says("expected a comment or whitespace") || says("expected comma or closing")) {
+    const bool next = !word.empty() && (word.front() == '"' || word.front() == '{' || word.find('=') != word.npos);
     diagnostics.error(spot, "unexpected `" + word + "` after a value",
-                   "a quantity or an expression stands in quotes (\"3 N/m\"); entries of an array or inline table are "
-                   "separated by commas");
+                   next ? "a comma is missing before it" : "a quantity or an expression stands in quotes: \"3 N/m\"");
   } else if (says("dangling comma")) {
     diagnostics.error(spot, "an inline table may not end with a comma", "remove the comma before `}`");
   } else if (says("unknown escape sequence")) {
     diagnostics.error(spot, "unknown escape `" + quoted() + "` in a string",
                    "a backslash is written \\\\, or the string stands in single quotes");
+  } else if (says("expected keys, tables, whitespace or comments") && word.starts_with('/')) {
+    diagnostics.error(spot, "unexpected `" + word + "`", "a comment begins with `#`");
+  } else if ((says("floating-point") && says("expected decimal digit")) || (says("could not determine") && word.starts_with('.'))) {
+    spot.column = begin_of_number(line, spot.column);
+    diagnostics.error(spot, "`" + std::string(word_at(line, spot.column)) + "` is not a number", "a decimal point stands between digits: 5.0, 0.5");
   } else if (says("end-of-file")) {
     diagnostics.error(spot, "the file ends where a value or a closing bracket is expected");
   } else if (says("TOML_MAX_NESTED_VALUES")) {

@@ -47,7 +47,7 @@ void TemplateReader::read_place(ElementTemplate& plan, Scope* scope, std::size_t
     return;
   }
   const auto take = [&](const TomlValue& value) {
-    if (!expect_string(value, "the name of a node", diagnostics)) return;
+    if (!expect_string(value, "the name of a node", diagnostics, value.kind == TomlValue::Kind::array ? "one node: at = \"cart\"" : "")) return;
     if (!expect_name(value.text, value.spot, "a node", diagnostics)) return;
     plan.nodes.push_back(scope->node(value.text, value.spot));
   };

@@ -221,7 +221,7 @@ ElementTemplate TemplateReader::read_entry(std::string name, Spot spot, const To
     } else if (context_.models_missing) {
       return plan;  // the type may be a model of that file
     } else {
-      refuse_type(*kind);
+      refuse_type(*kind, source);
     }
   }
   plan.sound = diagnostics.errors() == before;
@@ -234,16 +234,25 @@ const Declaration* TemplateReader::find_type(const std::string& type) const {
   return nullptr;
 }
 
-void TemplateReader::refuse_type(const TomlEntry& type) {
+void TemplateReader::refuse_type(const TomlEntry& type, const TomlValue& entry) {
+  const bool at = entry.find("at"), between = entry.find("between");
+  const auto may_be_meant = [&](Declaration::Ports ports) {
+    return ports == Declaration::Ports::block ? !at && !between : ports == Declaration::Ports::at_or_between || (ports == Declaration::Ports::at ? !between : !at);
+  };
   std::vector<std::string> names;
   for (const Declaration* d : context_.declarations) {
+    if (!may_be_meant(d->ports)) continue;
     names.push_back(d->type);
     if (!d->rotational_type.empty()) names.push_back(d->rotational_type);
   }
   for (const auto& [name, model] : models_) names.push_back(name);
-  const std::string here = called_here(type.value.text, context_.declarations);
-  context_.diagnostics.error(type.value.spot, "unknown element type `" + type.value.text + "`",
-                          !here.empty() ? here : did_you_mean(type.value.text, names, "the types are " + list_names(names, "and")));
+  std::string hint = called_here(type.value.text, context_.declarations);
+  std::string model = type.value.text;
+  std::replace(model.begin(), model.end(), '_', '-');
+  if (const std::string file = hint.empty() ? context_.files.library_file_of(model) : ""; !file.empty())
+    hint = "`" + model + "` is in the library: include = [\"" + file + "\"]";
+  if (hint.empty()) hint = did_you_mean(type.value.text, names, "the types " + std::string(at ? "that stand at a node " : between ? "that stand between nodes " : "") + "are " + list_names(names, "and"));
+  context_.diagnostics.error(type.value.spot, "unknown element type `" + type.value.text + "`", std::move(hint));
 }
 
 void TemplateReader::read_element(ElementTemplate& plan, const TomlEntry& type, const Declaration& declaration, Scope* scope,

@@ -136,7 +136,7 @@ class TemplateReader {
   void read_domain(ElementTemplate& plan, TableReader& reader);
   void read_repeat(ElementTemplate& plan, TableReader& reader);
   const Declaration* find_type(const std::string& type) const;
-  void refuse_type(const TomlEntry& type);
+  void refuse_type(const TomlEntry& type, const TomlValue& entry);
   const std::string& name_given(const Parameter& parameter, const ElementTemplate& plan, Domain domain, TableReader& reader) const;
 
   Context& context_;

@@ -92,7 +92,7 @@ class ExpressionScanner {
     if (c == '&' || c == '|') refuse_at(at_, text_, fmt::format("unexpected `{}`", c), "`&&` is and, `||` is or");
     depth_ += c == '(' ? 1 : c == ')' ? -1 : 0;
     if (depth_ > most_parentheses) refuse_at(at_, text_, "parentheses are nested too deeply");
-    if (c == ',' && depth_ <= 0) refuse_at(at_, text_, "an expression has one value", "a decimal point is written `.`");
+    if (c == ',' && depth_ <= 0) refuse_at(at_, text_, "an expression has one value", "a number has no comma: 1000 or 1.5");
     if (std::string_view("+-*/^(),?:<>").find(c) == std::string_view::npos)
       refuse_at(at_, text_, fmt::format("unexpected `{}` in an expression", c));
     ++at_;
@@ -145,7 +145,7 @@ class ExpressionParser {
     const std::string_view found = text_of(now().part);
     const bool value = now().kind != ExpressionToken::Kind::sign;
     refuse_at(now().part.begin, text_, fmt::format("unexpected `{}`", found),
-         value ? fmt::format("is an operator missing before `{}`?", found) : "");
+         value ? fmt::format("is an operator missing before `{}`?", found) : found == ":" ? "a ratio is one number: 5, not 5:1" : "");
   }
 
   bool is_call(std::size_t at) const { return is_sign(at + 1, "(") && find_function(text_of(tokens_[at].part)); }

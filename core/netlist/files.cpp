@@ -1,6 +1,9 @@
 #include "core/netlist/files.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <set>
 #include <system_error>
 
 #include "core/netlist/characters.hpp"
@@ -16,6 +19,8 @@ namespace {
 bool within(const fs::path& path, const fs::path& folder) {
   return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first == folder.end();
 }
+
+bool path_without_ending(const std::string& name) { return fs::path(name).extension().empty(); }
 
 const char* const rule = "files are looked for beside the one that names them and below, then in the library";
 
@@ -68,8 +73,22 @@ std::optional<Files::Found> Files::find_on_disk(const TomlValue& name, const Pla
     }
     return Found{(folder / normal).lexically_normal(), found};
   }
-  diagnostics.error(name.spot, "there is no file `" + name.text + "`", rule);
+  diagnostics.error(name.spot, "there is no file `" + name.text + "`", path_without_ending(name.text) ? "is its name `" + name.text + ".toml`?" : rule);
   return {};
+}
+
+std::string Files::library_file_of(std::string_view name) const {
+  std::set<std::string> files;
+  for (const fs::path& folder : library_) {
+    std::error_code failed;
+    for (const fs::directory_entry& file : fs::directory_iterator(folder / "library", failed)) {
+      std::string why;
+      const std::optional<std::string> text = file.path().extension() == ".toml" ? text_of(file.path(), why) : std::nullopt;
+      const auto has = [&](const char* kind) { return text && text->find(fmt::format("[{}.{}]", kind, name)) != text->npos; };
+      if (has("models") || has("laws")) files.insert("library/" + file.path().filename().string());
+    }
+  }
+  return files.empty() ? "" : *files.begin();
 }
 
 std::optional<Files::Found> Files::find_offered(const TomlValue& name, const Place& from, DiagnosticList& diagnostics) const {

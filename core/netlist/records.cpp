@@ -54,6 +54,7 @@ std::vector<std::string> channels_of(const SceneIndex::Found& found, bool sensed
 std::string meant_channel(const std::string& channel, const std::vector<std::string>& known) {
   const auto may = [&](const char* name) { return std::find(known.begin(), known.end(), name) != known.end(); };
   if (channel == "torque" && may("force")) return "force";
+  if (channel == "speed" && may("velocity")) return "velocity";
   if (channel == "angle" || channel == "position" || channel == "displacement")
     return may("position") ? "position" : "displacement";
   return nearest(channel, known);

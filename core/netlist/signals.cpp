@@ -216,8 +216,8 @@ bool SignalTemplate::is_of_time(const Environment& environment, Context& context
     if (!std::binary_search(names.begin(), names.end(), time) || environment.find(time)) continue;
     context.diagnostics.error(main_.source().spot,
                            main_.name() + ": there is no parameter `" + time +
-                               "`, and no expression is one of the time",
-                           "a signal that changes is a table, { sine = \"1 " + unit_of(quantity_.value_or(Quantity::number), context.domain) +
+                               "`, and an expression here cannot depend on the time",
+                           "what changes is the output of a `function`, { block = \"f\" }, or a table, { sine = \"1 " + unit_of(quantity_.value_or(Quantity::number), context.domain) +
                                "\", frequency = \"2 Hz\" }; there are " + list_names(shape_names(), "and"));
     return true;
   }

@@ -1,5 +1,7 @@
 #include "core/netlist/table_reader.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <initializer_list>
@@ -28,7 +30,18 @@ std::string place_of(std::string_view key) {
   const auto among = [&](std::initializer_list<std::string_view> reader) { return std::find(reader.begin(), reader.end(), key) != reader.end(); };
   if (among({"domain", "title", "include"})) return "at the top of the file, above all tables: it is for the whole scene";
   if (among({"stop", "accuracy", "output", "record", "start_from"})) return "in [simulate]";
+  if (among({"velocity", "angular_velocity", "position", "angle"})) return fmt::format("in [nodes], as a start value of a node: a = {{ {} = ... }}", key);
   return "";
+}
+
+/// What would mend a key that its table does not have; empty if nothing is known.
+std::string remedy_for(const TomlEntry& entry, const std::vector<std::string>& known) {
+  const auto has = [&](std::string_view key) { return std::find(known.begin(), known.end(), key) != known.end(); };
+  if (entry.value.is_table() && (entry.value.find("type") || entry.value.find("series") || entry.value.find("parallel")))
+    return fmt::format("this is an element below the header of another table: move it above that header, or write [elements.{}]", entry.key);
+  if (entry.key == "period" && has("frequency")) return "`frequency` is 1/period: a period of 0.5 s is frequency = \"2 Hz\"";
+  const std::string place = place_of(entry.key);
+  return place.empty() ? "" : "`" + entry.key + "` belongs " + place;
 }
 
 }  // namespace
@@ -47,10 +60,9 @@ void TableReader::finish(DiagnosticList& diagnostics) const {
   for (const TomlEntry& entry : table_.entries) {
     if (among(known_, entry.key) || among(silent_, entry.key)) continue;
     mistyped.push_back(nearest(entry.key, known_));
-    const std::string place = place_of(entry.key);
+    const std::string remedy = remedy_for(entry, known_);
     diagnostics.error(entry.spot, "unknown key `" + entry.key + "` of " + what_,
-                   place.empty() ? did_you_mean(entry.key, known_, "its keys are " + list_names(known_, "and"))
-                                 : "`" + entry.key + "` belongs " + place);
+                   remedy.empty() ? did_you_mean(entry.key, known_, "its keys are " + list_names(known_, "and")) : remedy);
   }
   for (const Missing& missing : missing_)
     if (!among(mistyped, missing.key))
@@ -69,6 +81,8 @@ bool expect_boolean(const TomlValue& value, const std::string& what, DiagnosticL
 }
 
 bool expect_table(const TomlValue& value, const std::string& what, DiagnosticList& diagnostics, std::string hint) {
+  const bool of_tables = value.kind == TomlValue::Kind::array && !value.items.empty() && value.items.front().is_table();
+  if (hint.empty() && of_tables) hint = "the header of a table has single brackets, as [elements]";
   return expect_kind(value, TomlValue::Kind::table, "a table", what, diagnostics, std::move(hint));
 }
 

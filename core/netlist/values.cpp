@@ -199,8 +199,9 @@ bool check_bounds(double value, const Parameter& parameter, const Formula& formu
     return false;
   }
   if (value > parameter.upper) {
-    diagnostics.error(spot, fmt::format("{} must be at most {}, but is {}", formula.name(),
-                                     with_unit(parameter.upper, unit), with_unit(value, unit)));
+    const bool percent = parameter.upper == 1 && value >= 2 && value <= 100 && unit == "1";
+    diagnostics.error(spot, fmt::format("{} must be at most {}, but is {}", formula.name(), with_unit(parameter.upper, unit), with_unit(value, unit)),
+                      percent ? fmt::format("{0:g} % is {1:g}, or \"{0:g} %\"", value, value / 100) : "");
     return false;
   }
   return true;

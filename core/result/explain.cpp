@@ -312,12 +312,17 @@ class Explainer {
     Explanation::Structure& s = result_.structure;
     s.loops = static_cast<int>(structure.closing.size());
     s.index = s.algebraic > 0 ? 1 : 0;
-    std::vector<std::string> floating, carried;
+    std::vector<std::string> floating, carried, geared;
     for (const Structure::Group& group : structure.groups) {
       for (const NodeId node : group.nodes) floating.push_back(network_.node_name(node));
     }
     for (const Network::Mass& mass : network_.masses) {
       if (structure.kind[at(mass.node)] == Kind::known && mass.node != ground) carried.push_back(element(mass.element));
+    }
+    const auto moves_by_inertia = [&](NodeId node) { return structure.kind[at(node)] == Kind::known || structure.own_mass[at(node)] > 0; };
+    for (const Structure::Tied& tied : structure.tied) {
+      if (!moves_by_inertia(tied.pivot) || !std::all_of(tied.terms.begin(), tied.terms.end(), [&](const auto& term) { return moves_by_inertia(term.node); })) continue;
+      geared.push_back(element(network_.trains[at(tied.train)].element));
     }
     const bool viscous = std::find(structure.kind.begin(), structure.kind.end(), Kind::viscous) != structure.kind.end();
     if (!floating.empty()) {
@@ -326,6 +331,9 @@ class Explainer {
     } else if (!carried.empty()) {
       s.index_as_wired = 2;
       s.because = "a given motion carries " + format_list(carried) + ": its force needs the rate of what is given";
+    } else if (!geared.empty()) {
+      s.index_as_wired = 2;
+      s.because = format_list(geared) + " joins velocities of masses: its force needs their accelerations";
     } else if (viscous || !network_.motions.empty()) {
       s.index_as_wired = 1;
       s.because = viscous ? "forces balance at nodes without mass" : "the forces of given motions follow from the others";

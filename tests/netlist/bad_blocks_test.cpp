@@ -77,7 +77,7 @@ scene.toml:4:26: error: `e` takes in at least 2 signals, but `in` names 1
 scene.toml:4:34: error: `shaft` has no `speed`
     4 | q = { type = "gain", in = "shaft.speed", gain = 2 }
       |                                  ^
-  it has `position` and `velocity`
+  did you mean `shaft.velocity`?
 )~"},
       {R"~(q2 = { type = "gain", in = "nowhere.velocity", gain = 2 }
 )~",

@@ -70,7 +70,7 @@ k1 = { type = "gearbox", between = ["a", "ground"], stiffness = 1 }
 scene.toml:2:15: error: unknown element type `gearbox`
     2 | k1 = { type = "gearbox", between = ["a", "ground"], stiffness = 1 }
       |               ^
-  the types are `spring`, `dashpot`, `slider`, `mass`, `inertia`, `motion`, `force` and `torque`
+  the types that stand between nodes are `spring`, `dashpot`, `slider`, `force` and `torque`
 )~"},
       {"a type that has another name elsewhere",
        R"~(

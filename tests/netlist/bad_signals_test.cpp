@@ -137,14 +137,14 @@ a = { type = "motion", at = "a", velocity = "2*sin(3*t)" }
 b = { type = "force", at = "b", force = { step = "time" } }
 )~",
        R"~(
-scene.toml:2:45: error: `velocity`: there is no parameter `t`, and no expression is one of the time
+scene.toml:2:45: error: `velocity`: there is no parameter `t`, and an expression here cannot depend on the time
     2 | a = { type = "motion", at = "a", velocity = "2*sin(3*t)" }
       |                                             ^
-  a signal that changes is a table, { sine = "1 m/s", frequency = "2 Hz" }; there are `step`, `ramp`, `sine`, `cosine`, `square`, `triangle`, `chirp`, `pulse`, `noise` and `table`
-scene.toml:3:50: error: `step`: there is no parameter `time`, and no expression is one of the time
+  what changes is the output of a `function`, { block = "f" }, or a table, { sine = "1 m/s", frequency = "2 Hz" }; there are `step`, `ramp`, `sine`, `cosine`, `square`, `triangle`, `chirp`, `pulse`, `noise` and `table`
+scene.toml:3:50: error: `step`: there is no parameter `time`, and an expression here cannot depend on the time
     3 | b = { type = "force", at = "b", force = { step = "time" } }
       |                                                  ^
-  a signal that changes is a table, { sine = "1 N", frequency = "2 Hz" }; there are `step`, `ramp`, `sine`, `cosine`, `square`, `triangle`, `chirp`, `pulse`, `noise` and `table`
+  what changes is the output of a `function`, { block = "f" }, or a table, { sine = "1 N", frequency = "2 Hz" }; there are `step`, `ramp`, `sine`, `cosine`, `square`, `triangle`, `chirp`, `pulse`, `noise` and `table`
 )~"},
       {"the name of a block, and names that are none",
        R"~(

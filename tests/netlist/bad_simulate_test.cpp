@@ -279,7 +279,7 @@ scene.toml:5:47: error: `k1` does not say which quantity is meant
 scene.toml:5:57: error: `k1` has no `speed`
     5 | record = ["k2.force", "k1.torque", "a.force", "k1", "k1.speed", "ground.velocity", "a.velocty", 3]
       |                                                         ^
-  it has `force`, `displacement`, `velocity`, `power`, `dissipated` and `energy`
+  did you mean `k1.velocity`?
 scene.toml:5:65: error: `ground` never moves: there is nothing to record of it
     5 | record = ["k2.force", "k1.torque", "a.force", "k1", "k1.speed", "ground.velocity", "a.velocty", 3]
       |                                                                 ^

@@ -48,7 +48,7 @@ k1 = { type = "spring", between = ["a", "ground"], stiffness = 3 N/m }
 scene.toml:2:66: error: unexpected `N/m` after a value
     2 | k1 = { type = "spring", between = ["a", "ground"], stiffness = 3 N/m }
       |                                                                  ^
-  a quantity or an expression stands in quotes ("3 N/m"); entries of an array or inline table are separated by commas
+  a quantity or an expression stands in quotes: "3 N/m"
 )~"},
       {"an inline table over two lines",
        R"~(
@@ -118,6 +118,7 @@ stop: 1
 scene.toml:2:5: error: expected `=` after the key, found `:`
     2 | stop: 1
       |     ^
+  a value follows `=`
 )~"},
       {"an array that is not closed",
        R"~(

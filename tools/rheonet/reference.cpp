@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/netlist/signals.hpp"
 #include "tools/rheonet/words.hpp"
 
 namespace rheonet::tool {
@@ -245,6 +246,8 @@ std::string as_text(const Component& component) {
     if (!descriptions[r].empty()) text += "      " + wrapped(descriptions[r], 6) + "\n";
   }
 
+  const bool signal = std::any_of(d.parameters.begin(), d.parameters.end(), [](const Parameter& p) { return p.kind == Parameter::Kind::signal || p.may_vary; });
+  if (signal) line("signal", "a value, the output of a block ({ block = \"f\" }), or a table with one of " + list_names(SignalTemplate::shape_names(), "and") + ", which the netlist format explains");
   for (const Limit& limit : component.limits) line("limit", limit.when + ": " + becomes(limit, d));
   line("effects", effects_of(d));
   for (const std::string& note : notes(d)) line("note", note);

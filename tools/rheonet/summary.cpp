@@ -54,7 +54,7 @@ std::string describe(const Summary& s, long rows, const std::string& destination
 
   line("rows", grouped(rows), "to " + destination);
   line("unknowns", grouped(s.unknowns),
-       s.unknowns == 0 ? "every motion is prescribed"
+       s.unknowns == 0 ? "all motion is prescribed, or held by friction"
        : s.arc_steps == s.steps && s.steps > 0 ? "linear between events: solved in closed form"
        : s.sparse      ? "sparse linear algebra (KLU)"
                        : "dense linear algebra");

@@ -127,7 +127,7 @@ export function statisticsOf(data) {
   const share = s.largest > 0 ? ` (${t('{part} of the largest energy in the run', { part: Math.abs(s.missing / s.largest).toExponential(1) })})` : '';
   const switched = s.switched.slice(0, 4).map(([name, times]) => t('{count} of {name}', { count: grouped(times), name })).join(', ');
   return table(['', ''], [
-    [t('unknowns'), `${grouped(s.unknowns)}, ${s.unknowns === 0 ? t('every motion is prescribed') : s.sparse ? t('sparse linear algebra') : t('dense linear algebra')}`],
+    [t('unknowns'), `${grouped(s.unknowns)}, ${s.unknowns === 0 ? t('all motion is prescribed, or held by friction') : s.sparse ? t('sparse linear algebra') : t('dense linear algebra')}`],
     [t('steps'), t('{steps}, {rejected} rejected', { steps: grouped(s.steps), rejected: grouped(s.rejected) })],
     [t('evaluations'), t('{residuals} of the residual, {jacobians} of the Jacobian', { residuals: grouped(s.residuals), jacobians: grouped(s.jacobians) })],
     [t('events'), `${grouped(s.events)}${switched ? `: ${switched}` : ''}`],
