@@ -163,11 +163,12 @@ const BlockSignals::Stretch* BlockSignals::current(const std::deque<Stretch>& st
   return after == stretches.begin() ? nullptr : &*std::prev(after);
 }
 
-Dual BlockSignals::motion_at(const Blocks::Sensor& sensor, const Stretch& s, double t) const {
-  if (sensor.what == What::velocity)
-    return s.by_position ? Dual(s.piece.rate(t), s.piece.curvature(t)) : Dual(s.piece.value(t), s.piece.rate(t));
-  return s.by_position ? Dual(s.piece.value(t), s.piece.rate(t))
-                       : Dual(s.anchor + s.piece.integral(s.t, t), s.piece.value(t));
+/// To the last digit as Inputs computes them: a node that sticks to the one of the motion has the same velocity.
+Dual BlockSignals::motion_at(const Blocks::Sensor& sensor, const Stretch& s, TimePoint now) const {
+  const double t = now.t, rate = s.by_position ? s.piece.curvature(t) : s.piece.rate(t);
+  const double velocity = (s.by_position ? s.piece.rate(t) : s.piece.value(t)) + rate * now.rest;
+  if (sensor.what == What::velocity) return {velocity, rate};
+  return {s.by_position ? value(s.piece, now) : s.anchor + s.piece.integral(s.t, t) + velocity * now.rest, velocity};
 }
 
 void BlockSignals::evaluate_time(TimePoint now, const DelayHistory& history) {
@@ -186,7 +187,7 @@ void BlockSignals::evaluate_time(TimePoint now, const DelayHistory& history) {
     }
   }
   for (std::size_t k = 0; k < moved_.size(); ++k) {
-    if (!moved_[k].empty()) sensed[k] = motion_at(blocks_->sensors[k], moved_[k].back(), t);
+    if (!moved_[k].empty()) sensed[k] = motion_at(blocks_->sensors[k], moved_[k].back(), now);
   }
 }
 

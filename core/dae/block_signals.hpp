@@ -179,7 +179,7 @@ class BlockSignals {
   Dual earlier_function(const Blocks::Block& block, double t, Look& look) const;
   Dual earlier_input(const Blocks::Block& block, double t, Look& look) const;
   Dual remembered_at(std::size_t atom, int channel, double t, Look& look) const;
-  Dual motion_at(const Blocks::Sensor& sensor, const Stretch& stretch, double t) const;
+  Dual motion_at(const Blocks::Sensor& sensor, const Stretch& stretch, TimePoint now) const;
   bool senses(int block, std::vector<char>& seen) const;
   double settle(int block, std::vector<char>& seen);
   [[noreturn]] void refuse_steady(int block, const char* why) const;

@@ -206,7 +206,7 @@ void Dae::choose_limits(double t, const double* y, const double* yp) {
   view(t, y, yp);
   std::vector<NodeId> moves_with;
   for (const Blocks::Sensor& sensor : network_->blocks.sensors) {
-    moves_with.push_back(sensor.what == What::velocity && sensor.motion < 0 ? structure_->rigid[at(sensor.index)] : -1);
+    moves_with.push_back(sensor.what == What::velocity ? structure_->rigid[at(sensor.index)] : -1);
   }
   blocks.move_with(std::move(moves_with));
   blocks.run(false);

@@ -21,7 +21,6 @@ constexpr std::pair<std::string_view, std::string_view> foreign_names[] = {
     {"power", "a power is written with `^`"},
     {"sqr", "a power is written with `^`"},
     {"mod", "the remainder of a/b is `a - b*floor(a/b)`"},
-    {"sgn", "it is called `sign`"},
     {"fabs", "it is called `abs`"},
     {"arcsin", "it is called `asin`"},
     {"arccos", "it is called `acos`"},

@@ -58,7 +58,7 @@ constexpr ExpressionFunction function_table[] = {
      nullptr, FunctionSwitch::abs, "x", "absolute value", "abs(-7)", 7},
     {"sign", 1, 1, FunctionRule::sign, [](FunctionArguments x) { return x[0] > 0 ? 1.0 : x[0] < 0 ? -1.0 : 0.0; },
      nullptr, FunctionSwitch::sign, "x",
-     "-1, 0 or 1, as x is below, at or above 0", "sign(-3)", -1},
+     "-1, 0 or 1, as x is below, at or above 0; also written `sgn`", "sign(-3)", -1},
     {"floor", 1, 1, FunctionRule::of_number, [](FunctionArguments x) { return std::floor(x[0]); },
      nullptr, FunctionSwitch::floor, "x", "largest whole number not above x",
      "floor(-0.5)", -1},
@@ -82,7 +82,7 @@ std::span<const ExpressionFunction> expression_functions() { return function_tab
 
 const ExpressionFunction* find_function(std::string_view name) {
   const auto* const found = std::find_if(std::begin(function_table), std::end(function_table),
-                                         [&](const ExpressionFunction& function) { return function.name == name; });
+                                         [&](const ExpressionFunction& function) { return function.name == (name == "sgn" ? "sign" : name); });
   return found != std::end(function_table) ? found : nullptr;
 }
 

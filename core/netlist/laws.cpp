@@ -20,6 +20,9 @@ namespace rheonet {
 
 namespace {
 
+/// The functions of `force` and `stores`: no expression can have these names.
+const char* const force_function = "law-force";
+const char* const energy_function = "law-energy";
 const char* const inputs_example = "inputs = [\"u\"]";
 const char* const state_example = "states = { z = { start = \"0 m\", rate = \"w - ...\" } }";
 
@@ -79,13 +82,13 @@ class LawReader {
       for (const TomlEntry& entry : where->value.entries) add_function(entry.key, entry.value);
     if (states)
       for (const TomlEntry& entry : states->value.entries) add_state(entry);
-    add_function("f", force->value);
+    add_function(force_function, force->value);
     std::vector<TomlEntry> element{{"type", law_.spot, text_at(law_.spot, "law")},
                                    {"between", law_.spot, ports()},
-                                   {"force", force->spot, from("f", force->spot)}};
+                                   {"force", force->spot, from(force_function, force->spot)}};
     if (stores) {
-      add_function("E", stores->value);
-      element.push_back({"stores", stores->spot, from("E", stores->spot)});
+      add_function(energy_function, stores->value);
+      element.push_back({"stores", stores->spot, from(energy_function, stores->spot)});
     }
     elements_.push_back({law_element, law_.spot, table_at(law_.spot, std::move(element))});
     refuse_circles();
@@ -130,9 +133,9 @@ class LawReader {
   /// Takes the name of a state, an input or an entry of `where`.
   void name(const std::string& called, Spot spot, const std::string& what) {
     if (!expect_identifier(called, spot, what, diagnostics_)) return;
-    for (const char* taken : {"d", "w", "t", "f", "E", law_element}) {
+    for (const char* taken : {"d", "w", "t", law_element}) {
       if (called != taken) continue;
-      diagnostics_.error(spot, fmt::format("{} cannot be called `{}`", what, taken), "d, w, t, f, E and law have a meaning in every law");
+      diagnostics_.error(spot, fmt::format("{} cannot be called `{}`", what, taken), "d, w, t and law have a meaning in every law");
     }
     if (std::find(names_.begin(), names_.end(), called) != names_.end())
       diagnostics_.error(spot, fmt::format("`{}` is named twice in law `{}`", called, law_.key));
@@ -260,8 +263,8 @@ void laws_to_models(TomlValue& document, DiagnosticList& diagnostics) {
 }
 
 std::string law_part(const std::string& block) {
-  if (block == "f") return "`force`";
-  if (block == "E") return "`stores`";
+  if (block == force_function) return "`force`";
+  if (block == energy_function) return "`stores`";
   return block.ends_with("_rate") ? "`rate` of `" + block.substr(0, block.size() - 5) + "`" : "`" + block + "`";
 }
 

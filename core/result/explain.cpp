@@ -312,17 +312,17 @@ class Explainer {
     Explanation::Structure& s = result_.structure;
     s.loops = static_cast<int>(structure.closing.size());
     s.index = s.algebraic > 0 ? 1 : 0;
-    std::vector<std::string> floating, carried, geared;
+    std::vector<std::string> floating, carried, joined;
     for (const Structure::Group& group : structure.groups) {
       for (const NodeId node : group.nodes) floating.push_back(network_.node_name(node));
     }
     for (const Network::Mass& mass : network_.masses) {
       if (structure.kind[at(mass.node)] == Kind::known && mass.node != ground) carried.push_back(element(mass.element));
     }
-    const auto moves_by_inertia = [&](NodeId node) { return structure.kind[at(node)] == Kind::known || structure.own_mass[at(node)] > 0; };
-    for (const Structure::Tied& tied : structure.tied) {
-      if (!moves_by_inertia(tied.pivot) || !std::all_of(tied.terms.begin(), tied.terms.end(), [&](const auto& term) { return moves_by_inertia(term.node); })) continue;
-      geared.push_back(element(network_.trains[at(tied.train)].element));
+    std::vector<int> masses(structure.rigid.size(), 0);
+    for (std::size_t n = 1; n < masses.size(); ++n) masses[at(structure.rigid[n])] += structure.own_mass[n] > 0;
+    for (const NodeId node : network_.node_order) {
+      if (structure.own_mass[at(node)] > 0 && masses[at(structure.rigid[at(node)])] > 1) joined.push_back(network_.node_name(node));
     }
     const bool viscous = std::find(structure.kind.begin(), structure.kind.end(), Kind::viscous) != structure.kind.end();
     if (!floating.empty()) {
@@ -331,9 +331,9 @@ class Explainer {
     } else if (!carried.empty()) {
       s.index_as_wired = 2;
       s.because = "a given motion carries " + format_list(carried) + ": its force needs the rate of what is given";
-    } else if (!geared.empty()) {
+    } else if (!joined.empty()) {
       s.index_as_wired = 2;
-      s.because = format_list(geared) + " joins velocities of masses: its force needs their accelerations";
+      s.because = "what joins the masses at " + format_list(joined) + " has a force that follows from their acceleration";
     } else if (viscous || !network_.motions.empty()) {
       s.index_as_wired = 1;
       s.because = viscous ? "forces balance at nodes without mass" : "the forces of given motions follow from the others";

@@ -188,7 +188,7 @@ class Comparison {
     found.change = change;
     found.times.assign(own.times.begin(), own.times.begin() + static_cast<std::ptrdiff_t>(rows));
     found.records.resize(records);
-    std::vector<double> left(records, 0), scale(records, 0);
+    std::vector<double> left(records, 0), left_of_one_side(records, 0), scale(records, 0);
     Sides sides(shifts(recordings_));
     for (std::size_t i = 0; i < rows; ++i) {
       const std::array<bool, changes> same = sides.at(own.times[i]);
@@ -204,14 +204,17 @@ class Comparison {
         const DifferenceQuotient d = above && below ? central(r, change) : above ? one_sided(r, up, up_twice, change) : one_sided(r, down, down_twice, -change);
         values[k] = d.value;
         scale[k] = std::max(scale[k], std::abs(r[base]));
-        if (above && below) left[k] = std::max(left[k], std::abs(d.left));
+        double& most = above && below ? left[k] : left_of_one_side[k];
+        most = std::max(most, std::abs(d.left));
         if (std::abs(d.value) > found.records[k].largest) found.records[k] = {std::abs(d.value), own.times[i], 0};
       }
     }
     for (std::size_t k = 0; k < records; ++k) {
       Sensitivity::Record& record = found.records[k];
-      // For a sine the relative error of the second order is x^2/3!, and that of the fourth x^4/30.
-      const double noise = error_ * scale[k] / change, truncation = record.largest > 0 ? 6 * 6 * left[k] * left[k] / (30 * record.largest) : 0;
+      // For an exponential function the relative errors are x^2/3! of the second order and x^4/30 of the fourth; of one side alone x/2 of the first order and
+      // x^2/3 of the second.
+      const double two_sides = 6 * 6 * left[k] * left[k] / 30, one_side = 2 * 2 * left_of_one_side[k] * left_of_one_side[k] / 3;
+      const double noise = error_ * scale[k] / change, truncation = record.largest > 0 ? std::max(two_sides, one_side) / record.largest : 0;
       record.error = noise + truncation;
       if (record.largest <= noise) continue;
       result.truncation = std::max(result.truncation, truncation / record.largest);

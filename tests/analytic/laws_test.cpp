@@ -287,7 +287,7 @@ TEST_CASE("laws: mistakes with inputs") {
   told(law, ", u = \"2 N\"", "");
   told(law, ", u = { step = \"2 N\", tim = 1 }", "scene.toml:7:66: error: unknown key `tim` of a `step` signal\n" + line + ", u = { step = \"2 N\", tim = 1 } }\n      |                                                                  ^\n  did you mean `time`?\n");
   told("inputs = \"u\"\nforce = \"k*d\"", "", "scene.toml:3:10: error: `inputs` must be an array, but is the string \"u\"\n    3 | inputs = \"u\"\n      |          ^\n  inputs = [\"u\"]\n");
-  told("inputs = [\"w\"]\nforce = \"k*d\"", "", "scene.toml:3:11: error: an input cannot be called `w`\n    3 | inputs = [\"w\"]\n      |           ^\n  d, w, t, f, E and law have a meaning in every law\n");
+  told("inputs = [\"w\"]\nforce = \"k*d\"", "", "scene.toml:3:11: error: an input cannot be called `w`\n    3 | inputs = [\"w\"]\n      |           ^\n  d, w, t and law have a meaning in every law\n");
   told("inputs = [\"k\"]\nforce = \"k*d\"", "", "scene.toml:2:16: error: `k` is a parameter of law `a`, and a state, an input or a name in `where` too\n    2 | parameters = { k = \"1 N/m\" }\n      |                ^\n  rename one of them\n");
   told("inputs = [\"type\"]\nforce = \"k*d*type\"", "", "scene.toml:3:11: error: an input cannot be called `type`\n    3 | inputs = [\"type\"]\n      |           ^\n  an element has a key of that name already\n");
 }

@@ -57,7 +57,7 @@ TEST_CASE("what beginners write, or users of other tools: each message says what
   CHECK(contains(folder.shell("rheonet check scene.toml", 2).err, "did you mean `s.velocity`?"));
 }
 
-TEST_CASE("explain: a gear between masses has a force that needs their accelerations") {
+TEST_CASE("explain: the force of a gear between masses follows from their acceleration") {
   const Folder folder;
   folder.write("scene.toml", R"(
 [elements]
@@ -68,5 +68,5 @@ f = { type = "force", at = "x", force = 1 }
 [simulate]
 stop = 1
 )");
-  CHECK(contains(folder.shell("rheonet explain scene.toml", 0).out, "index 2 as wired"));
+  CHECK(contains(folder.shell("rheonet explain scene.toml", 0).out, "index 2 as wired, 0 as solved; what joins the masses at `x` and `y` has a force that follows from their acceleration"));
 }
