@@ -147,7 +147,18 @@ double NetworkEvents::band(int k) const {
   return which == of_slider && dae_.structure().stuck[at(slider)] && !moved_apart(slider) ? force_band(slider) : 0;
 }
 
-void NetworkEvents::refuse_contradictions(double t) const {
+/// The largest force of a spring, or a law with a memory, that has a node other than ground in common with this branch [N].
+double NetworkEvents::force_beside(const Branch& branch, const Dae::View& view) const {
+  double largest = 0;
+  const auto common = [&](NodeId node) { return node != ground && (node == branch.a || node == branch.b); };
+  for (std::size_t j = 0; j < view.f.size(); ++j) {
+    const Branch& b = dae_.network().deflections[j];
+    if (common(b.a) || common(b.b)) largest = std::max(largest, std::abs(view.f[j]));
+  }
+  return largest;
+}
+
+void NetworkEvents::refuse_contradictions(double t, const Dae::View& view) const {
   const Network& network = dae_.network();
   for (std::size_t i = 0; i < sliders_.size(); ++i) {
     const int k = sliders_[i];
@@ -156,8 +167,9 @@ void NetworkEvents::refuse_contradictions(double t) const {
     // Where the bounds are 0 or infinite, round-off has nothing to be compared with.
     if (stuck && (moved_apart(k) || bound == 0)) continue;
     const double scale = stuck ? std::max(bound, tolerances_.held_seen(k)) : tolerances_.largest_velocity();
-    if (at_begin_[law_margin_.size() + i] >= -numerics::slip_against_force * scale) continue;
     const Branch& branch = network.sliders[at(k)].branch;
+    const double rounding = stuck ? numerics::balance_roundoff * force_beside(branch, view) : 0;
+    if (at_begin_[law_margin_.size() + i] >= -numerics::slip_against_force * scale - rounding) continue;
     throw SimulationError(network.spot_of(branch.element), fmt::format(
         "{} no motion was found in which `{}` {}: the values of {} may lie too far apart for double "
         "precision; check them",

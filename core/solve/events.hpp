@@ -33,7 +33,7 @@ class NetworkEvents final : public EventFunctions {
   /// A law whose memory says that it rests, while the equations of these modes give it a velocity far above its dead band [m/s]; or that
   /// is held at rest, while its event `which` is over by as much.
   /// Throws SimulationError where a slider began, at t, to stick with a force far above its bound, or to slip against its force.
-  void refuse_contradictions(double t) const;
+  void refuse_contradictions(double t, const Dae::View& view) const;
   struct Contradicted { int branch; double velocity; int which = -1; };
   std::vector<Contradicted> contradicted(double t, const std::vector<double>& y, const std::vector<double>& yp);
   /// Slipping sliders that reverse as the sliders `stopped` stop, because a node of both loses the residual slip velocity.
@@ -93,6 +93,7 @@ class NetworkEvents final : public EventFunctions {
   double slider_function(int slider, const Dae::View& view) const;
   bool moved_apart(int slider) const;
   double force_band(int slider) const;
+  double force_beside(const Branch& branch, const Dae::View& view) const;
   double limit_function(std::size_t limit) const;
   double loss_function(std::size_t loss, const Dae::View& view) const;
   /// Guard k of the sliders, then of the limits, in the state of the view.

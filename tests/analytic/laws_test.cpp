@@ -291,3 +291,45 @@ TEST_CASE("laws: mistakes with inputs") {
   told("inputs = [\"k\"]\nforce = \"k*d\"", "", "scene.toml:2:16: error: `k` is a parameter of law `a`, and a state, an input or a name in `where` too\n    2 | parameters = { k = \"1 N/m\" }\n      |                ^\n  rename one of them\n");
   told("inputs = [\"type\"]\nforce = \"k*d*type\"", "", "scene.toml:3:11: error: an input cannot be called `type`\n    3 | inputs = [\"type\"]\n      |           ^\n  an element has a key of that name already\n");
 }
+
+// A mass that sticks to a moving belt has a relative velocity of exactly 0: its round-off does not switch `max` and `min` on and off.
+TEST_CASE("laws: a contact with damping, held by a slider on a belt, switches when the contact closes") {
+  const std::string scene = R"toml(
+[laws.absorber]
+parameters = { c = "1 N*s/m", k = "619 N/m", up = "0.03 m" }
+force = "max(0, k*max(d - up, 0) + c*w)"
+[elements]
+m = { type = "mass", at = "n", mass = 1.0 }
+belt = { type = "motion", at = "drv", velocity = { table = [[0, 0.0048], [1, -0.2061], [2, 0.2]] } }
+s = { type = "slider", between = ["n", "drv"], coulomb = 1.0 }
+b = { type = "sfm", between = ["n", "drv"], stiffness = 144, coulomb = 3 }
+l = { type = "absorber", between = ["n", "drv"] }
+[simulate]
+stop = 2
+output = { points = 201 }
+record = ["n.velocity", "l.force"]
+)toml";
+  CHECK(outcome(scene, 1e-6).summary.steps < 500);
+}
+
+TEST_CASE("laws: `sgn`, and states called f and E") {
+  const std::string toml = R"toml(
+[laws.a]
+parameters = { F0 = "1.3 N", T = "0.7 s" }
+states = { f = { start = "0 N", rate = "(F0*sgn(w) - f)/T" }, E = { start = "0 N*s", rate = "f" } }
+force = "f"
+[elements]
+pull = { type = "motion", at = "x", velocity = 0.4 }
+l = { type = "a", between = ["x", "ground"] }
+[simulate]
+stop = 2
+output = { points = 21 }
+record = ["l.force", "l.E.out"]
+)toml";
+  Outcome run = outcome(toml, 1e-9);
+  for (std::size_t row = 0; row < 21; ++row) {
+    const double t = 0.1 * static_cast<double>(row);
+    CHECK(std::abs(run.rows["l.force"][row] - 1.3 * -std::expm1(-t / 0.7)) < 1e-8);
+    CHECK(std::abs(run.rows["l.E.out"][row] - 1.3 * (t + 0.7 * std::expm1(-t / 0.7))) < 1e-8);
+  }
+}

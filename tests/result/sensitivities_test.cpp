@@ -9,6 +9,7 @@
 #include "core/netlist/read.hpp"
 #include "core/network/component.hpp"
 #include "core/result/sensitivities.hpp"
+#include "core/result/trajectory.hpp"
 #include "tests/support/simulate.hpp"
 
 using namespace rheonet;
@@ -128,6 +129,38 @@ record = ["body.velocity"]
           const double lost = B * t / (2 * m);
           return -2 * (std::sqrt(v0) - lost) * lost;
         }) < 1e-5);
+}
+
+// Within steps of a hundredth of the value, other events follow on one side: the rows behind have only the runs of the other side.
+TEST_CASE("derivatives where other events follow a larger change are right within their stated error") {
+  const std::string toml = R"([elements]
+mn0 = { type = "mass", at = "n0", mass = 0.36 }
+mn1 = { type = "mass", at = "n1", mass = 2.0 }
+F = { type = "force", at = "n0", force = { square = 5.7, frequency = 2.0, offset = 1.5 } }
+spring0 = { type = "spring", between = ["ground", "n0"], stiffness = 185.0 }
+slider2 = { type = "slider", between = ["ground", "n1"], coulomb = 0.5 }
+slider3 = { type = "slider", between = ["n0", "ground"], coulomb = 1.5, breakaway = 2.3, stribeck = 0.58 }
+vfm5 = { type = "vfm", between = ["n1", "n0"], stiffness = 62.0, damping = 2.0 }
+[nodes]
+n1 = { velocity = -0.0891 }
+[simulate]
+stop = 1.82
+accuracy = 1e-9
+output = { points = 21 }
+record = ["n1.position"]
+)";
+  for (const std::string path : {"slider3.breakaway", "spring0.stiffness"}) {
+    CAPTURE(path);
+    const auto final = [&](double factor) {
+      ReadOptions options;
+      options.overrides = {fmt::format("{}*={:.17g}", path, factor), "simulate.accuracy=1e-12"};
+      return run_to_memory(*read_scene_text(toml, "scene.toml", ".", declarations(), options).scene).rows.back()[0];
+    };
+    const double change = 1e-4, exact = (final(1 + change) - final(1 - change)) / (2 * change);
+    const Sensitivity found = by(toml, path);
+    CHECK(std::abs(found.values.back()[0] - exact) < 1e-5 * std::abs(exact));
+    CHECK(found.records[0].error < 1e-5 * std::abs(exact));
+  }
 }
 
 TEST_CASE("derivatives by what changes the times of the rows do not exist") {
