@@ -129,6 +129,17 @@ test('a sweep of the number of elements shows the error: 2 Fc/(4 n^2) of n slide
   await close();
 });
 
+test('limits and curve of a sweep are those of the scene', async () => {
+  const { page, close } = await desk.open('#file=forced.toml');
+  await swept(page, { number: 'parameters.r', from: 0.5, to: 1, runs: 3, measure: 'steps' });
+  await page.evaluate(() => (location.hash = '#file=stick-slip.toml'));
+  await page.waitForFunction(() => document.querySelector('h1').textContent === 'Stick and slip');
+  await page.waitForFunction(() => document.querySelector('.sweep-fields')?.textContent.includes('k1.stiffness'));
+  assert.notEqual(await fold(page, 'Sweep').getByLabel('from', { exact: true }).inputValue(), '0.5');
+  assert.equal(await fold(page, 'Sweep').locator('.chart').count(), 0);
+  await close();
+});
+
 test('a sweep says which runs failed, and what is no number', async () => {
   const { page, close } = await desk.open('#file=stick-slip.toml');
   await swept(page, { number: 'm1.mass', from: -1, to: 1, runs: 3, measure: 'steps' });

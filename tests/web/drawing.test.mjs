@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { netlist, redrawn, setUp, shows, stickSlip } from './desk.mjs';
-import { accessible, rheonet } from './support.mjs';
+import { accessible, done, rheonet } from './support.mjs';
 
 // One of each kind of place that makes elements.
 const made = `# Made by models, groups and repetition.
@@ -168,6 +168,54 @@ test('rheonet checks what is written into a field: the card says what is wrong',
   // A value that is no longer given goes from the text.
   await redrawn(page, () => write(page, 'breakaway Fs', ''));
   assert.equal(await line(page, 's1'), 's1 = { type = "slider", between = ["block", "ground"], coulomb = "1.5 N" }');
+  await close();
+});
+
+test('what is drawn keeps its room, at the start of the run, while somebody draws', async () => {
+  for (const [width, height] of [[1024, 768], [1440, 900]]) {
+    const { page, close } = await open('#file=stick-slip.toml', { viewport: { width, height } });
+    await page.locator('button.play').click();
+    await page.waitForFunction(() => document.querySelector('.clock').textContent !== '0 s');
+    await draw(page);
+    assert.equal(await page.locator('.clock').textContent(), '0 s');
+    assert.equal(await page.locator('button.play').getAttribute('aria-pressed'), 'false');
+    await palette(page, 'spring').click();
+    const [drawing, plots] = [await page.locator('.drawing').boundingBox(), await page.locator('.plots-box').boundingBox()];
+    assert.ok(drawing.height >= 260 && drawing.y + drawing.height <= plots.y, JSON.stringify([drawing, plots]));
+    // Handles are not shown where nothing is.
+    await page.locator('.animation > input').press('End');
+    assert.equal(await end(page, 'k1', 'hand').isVisible(), false);
+    await palette(page, 'dashpot').click();
+    assert.ok(await end(page, 'k1', 'hand').isVisible());
+    await close();
+  }
+});
+
+test('undo brings back the scene before a new one, and a comparison that has ended', async () => {
+  const { page, close } = await open('#file=stick-slip.toml');
+  const before = await netlist(page);
+  await page.getByRole('button', { name: 'New', exact: true }).click();
+  await palette(page, 'mass').click();
+  await redrawn(page, () => asked(page, 'new node').click());
+  await page.getByRole('button', { name: 'Draw', exact: true }).click();
+  await page.locator('.cm-content').click();
+  await page.keyboard.press('Control+z');
+  await page.waitForFunction(() => !document.querySelector('.cm-content').textContent.includes('mass1'));
+  // An empty scene that is not drawn in has the button to draw.
+  assert.ok(await page.getByRole('button', { name: 'Draw', exact: true }).isVisible());
+  await page.keyboard.press('Control+z');
+  await page.waitForFunction(() => document.querySelector('h1').textContent === 'Stick and slip');
+  assert.equal(await netlist(page), before);
+  await done(page);
+  await redrawn(page, () => page.getByRole('button', { name: 'Compare' }).click());
+  await redrawn(page, () => page.locator('[data-slider="k1.stiffness"] input[type=text]').fill('120').then(() => page.keyboard.press('Enter')));
+  await page.getByRole('button', { name: 'End comparison' }).click();
+  await accessible(page, 'undo in a toast');
+  await page.locator('.toast').getByRole('button', { name: 'Undo' }).click();
+  await page.locator('.variants label').nth(1).waitFor();
+  assert.match(await netlist(page), /stiffness = "120 N\/m"/);
+  await page.locator('.variants label').first().click();
+  assert.equal(await netlist(page), before);
   await close();
 });
 

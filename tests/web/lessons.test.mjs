@@ -12,7 +12,7 @@ const text = (name) => readFileSync(join(netlists, 'teaching', name), 'utf8');
 const lessons = readdirSync(join(netlists, 'teaching')).filter((name) => name.endsWith('.lesson')).map((name) => name.replace('.lesson', ''));
 
 // The example of the page that describes the format, for a netlist of its names.
-const example = /```ini\n([^]*?)```/.exec(readFileSync(join(netlists, 'teaching/README.md'), 'utf8'))[1];
+const example = /```toml\n(level[^]*?)```/.exec(readFileSync(join(netlists, 'teaching/README.md'), 'utf8'))[1];
 const belt = `title = "A belt"
 [parameters]
 k = "1 kN/m"
@@ -102,13 +102,17 @@ test('the result is seen only after the prediction, which stays beside the run',
   assert.ok(await page.locator('.formula .katex').isVisible());
   await accessible(page, 'after the prediction');
 
+  const verdict = page.getByText('That is not what happens.');
   await redrawn(page, () => page.getByRole('button', { name: 'thin oil' }).click());
+  assert.equal(await verdict.isVisible(), false); // it was of the run before
+  await page.getByRole('button', { name: 'Netlist' }).click();
   assert.match(await netlist(page), /B = "50 N\*s\/m"/);
   assert.equal(await number(page, 'parameters.B').inputValue(), '50');
   assert.match(await page.textContent('.lesson-steps'), /It falls ten times as fast\./);
   assert.deepEqual(await page.locator('.lesson-steps .key').allTextContents(), ['the run', 'your prediction']);
   await redrawn(page, () => page.getByRole('button', { name: 'as at first' }).click());
   assert.equal(await netlist(page), belt.trimEnd() + '\n');
+  assert.ok(await verdict.isVisible());
 
   await page.getByRole('button', { name: 'Next lesson: Another belt' }).click();
   await page.waitForFunction(() => location.hash === '#lesson=next.toml');
@@ -118,6 +122,53 @@ test('the result is seen only after the prediction, which stays beside the run',
   await page.locator('.plots-box').waitFor();
   assert.ok(page.url().endsWith('#file=next.toml'));
   assert.equal(await page.locator('.lesson-steps').count(), 0);
+  await close();
+});
+
+test('the link of a lesson opens it at its first step, also in a presentation, and the netlist is one click away', async () => {
+  const { page, close } = await open('#lesson=belt.toml', {}, offered);
+  await page.getByRole('radio', { name: 'It stays.' }).check();
+  await page.getByRole('button', { name: 'Compare with the run' }).click();
+  await redrawn(page, () => page.getByRole('button', { name: 'thin oil' }).click());
+  await page.getByRole('button', { name: 'Link' }).click();
+  await page.locator('.toast', { hasText: 'opens the lesson' }).waitFor();
+  const link = await page.evaluate(() => location.hash);
+  await close();
+  const other = await open(link, { viewport: { width: 1366, height: 768 } }, offered);
+  assert.equal(await other.page.locator('.plots-box').isVisible(), false);
+  assert.equal(await other.page.locator('.editor').isVisible(), false);
+  await other.page.getByRole('button', { name: 'Netlist' }).click();
+  assert.ok(await other.page.locator('.editor').isVisible());
+  assert.equal(await netlist(other.page), belt.trimEnd() + '\n');
+  await other.page.getByRole('button', { name: 'Netlist' }).click();
+  await other.page.locator('button.present').click();
+  for (const input of await other.page.locator('.choices label, .lesson-steps .primary').all()) {
+    const [box, inside] = [await input.boundingBox(), await other.page.locator('.lesson-box').boundingBox()];
+    assert.ok(box.y + box.height <= inside.y + inside.height, JSON.stringify([box, inside]));
+  }
+  await other.close();
+});
+
+test('a lesson stays where it is when the language changes', async () => {
+  const { page, close } = await open('#lesson=belt.toml', {}, offered);
+  await page.getByRole('radio', { name: 'It stays.' }).check();
+  const language = async (code) => {
+    await page.locator('select.language').selectOption(code);
+    await page.waitForFunction((now) => document.documentElement.lang === now, code);
+    await offered(page);
+  };
+  await language('fr');
+  assert.ok(await page.getByRole('radio', { name: 'It stays.' }).isChecked());
+  assert.equal(await page.locator('.plots-box').isVisible(), false);
+  await page.locator('.lesson-steps .primary').click();
+  await page.getByRole('button', { name: 'thin oil' }).click();
+  await page.waitForFunction(() => document.querySelector('[data-slider="parameters.B"] input[type=text]').value === '50');
+  await language('en');
+  await page.getByText('4. Explain').waitFor();
+  assert.equal(await number(page, 'parameters.B').inputValue(), '50');
+  await redrawn(page, () => page.getByRole('button', { name: 'as at first' }).click());
+  assert.ok(await page.getByText('That is not what happens.').isVisible());
+  assert.equal(await number(page, 'parameters.B').inputValue(), '500');
   await close();
 });
 
@@ -144,10 +195,12 @@ test('a curve is sketched by mouse or by keys, and compared', async () => {
   await page.mouse.down();
   for (let k = 1; k <= 120; ++k) {
     const time = (4 * k) / 120;
-    const force = time < 0.1 ? 0 : Math.exp(-(time - 0.1) / 0.5);
+    const force = time < 0.12 ? 0 : Math.exp(-(time - 0.1) / 0.5);
     await page.mouse.move(...place(k / 120, (force + 0.2) / 1.6));
   }
   await page.mouse.up();
+  await page.reload();
+  await page.waitForFunction(() => document.querySelector('.lesson-steps .primary')?.disabled === false);
   await compare.click();
   const off = Number(/On average your curve is (\d+) % of the height/.exec(await page.textContent('.lesson-steps'))[1]);
   assert.ok(off <= 8, String(off));

@@ -42,7 +42,18 @@ bump = { type = "stop", between = ["hand", "ground"], upper = "10 mm", stiffness
 stop = "2 s"
 record = ["bump.force"]
 `;
-const desk = setUp({ 'rotor.toml': rotor, 'stop.toml': stop, 'maxwell.toml': maxwell, 'held.toml': held, 'stick-slip.toml': stickSlip });
+// A hammer falls 1.5 m on a pile, which goes 0.13 m into the ground with it.
+const driver = `[elements]
+hammer = { type = "mass", at = "hammer", mass = "800 kg" }
+pile = { type = "mass", at = "pile", mass = "300 kg" }
+W = { type = "force", at = "hammer", force = "7848 N" }
+head = { type = "stop", between = ["hammer", "pile"], upper = "1.5 m", stiffness = "inf" }
+soil = { type = "slider", between = ["pile", "ground"], coulomb = "90 kN" }
+[simulate]
+stop = "0.8 s"
+record = ["hammer.position", "pile.position"]
+`;
+const desk = setUp({ 'driver.toml': driver, 'rotor.toml': rotor, 'stop.toml': stop, 'maxwell.toml': maxwell, 'held.toml': held, 'stick-slip.toml': stickSlip });
 const { open } = desk;
 
 // Goes to a part of the run.
@@ -157,6 +168,19 @@ test('the plates of a stop touch when it touches', async () => {
     gaps.push(await gap());
   }
   assert.ok(gaps[0] > 3 && Math.abs(gaps[1] - gaps[0] / 2) < 0.1 && Math.abs(gaps[2]) < 0.1 && Math.abs(gaps[3]) < 0.1, gaps.join());
+  await close();
+});
+
+test('what falls on something moves until it touches, and on with it', async () => {
+  const { page, close } = await open('#file=driver.toml');
+  const places = async (part) => {
+    await at(page, part);
+    return Promise.all(['hammer', 'pile'].map(async (name) => (await boxOf(page, element(name))).x));
+  };
+  const [start, fall, impact, end] = [await places(0), await places(0.4), await places(0.72), await places(1)];
+  assert.ok(fall[0] > start[0] + 3 && fall[1] === start[1], `${start} ${fall}`);
+  assert.ok(impact[0] > start[0] + 15 && end[1] > start[1] + 1, `${start} ${impact} ${end}`);
+  assert.ok(Math.abs(end[1] - end[0] - (impact[1] - impact[0])) < 0.2, `${impact} ${end}`);
   await close();
 });
 

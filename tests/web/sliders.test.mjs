@@ -82,6 +82,20 @@ test('sliders are those of the netlist that is open', async () => {
   await close();
 });
 
+test('what is reset belongs to the scene: another text has other first numbers', async () => {
+  const { page, close } = await open();
+  await redrawn(page, () => number(page, 'parameters.Tc').fill('3').then(() => number(page, 'parameters.Tc').press('Enter')));
+  assert.ok(await page.locator('.undo-all').isVisible());
+  await page.locator('.cm-content').click();
+  await page.keyboard.press('Control+a');
+  await redrawn(page, () => page.keyboard.insertText(bingham.replace('2 N*m', '7 N*m')));
+  assert.equal(await page.locator('.undo-all').isVisible(), false);
+  await redrawn(page, () => number(page, 'parameters.Tc').fill('8').then(() => number(page, 'parameters.Tc').press('Enter')));
+  await redrawn(page, () => page.locator('.undo-all').click());
+  assert.match(await netlist(page), /Tc = "7 N\*m"/);
+  await close();
+});
+
 test('a small motion far from 0 is seen, and so is a short time far from 0', async () => {
   const { page, close } = await open();
   const written = await numbersOnCanvas(page);

@@ -64,18 +64,13 @@ const beyond = (page, selectors) => page.evaluate((all) => all.filter((selector)
   return left < -0.5 || top < -0.5 || right > innerWidth + 0.5 || bottom > innerHeight + 0.5;
 })), selectors);
 
-test('schematic and plots share the screen, with no plot below the fold', async () => {
-  for (const [width, height] of [[1024, 768], [1440, 900]]) {
+test('schematic and plots share the screen, and where it is too small the plots are below each other', async () => {
+  for (const [width, height] of [[1024, 768], [1440, 900], [1920, 1080]]) {
     const { page, close } = await open(file, { viewport: { width, height } });
-    assert.deepEqual(await beyond(page, ['.drawing svg', '.animation', '.plots .chart']), [], `${width} x ${height}`);
-    assert.ok((await page.locator('.plots .chart:visible').first().boundingBox()).height >= 100);
-    // A panel without room is one click away.
-    const names = () => page.locator('.plots .chart:visible').evaluateAll((charts) => charts.map((chart) => chart.getAttribute('aria-label')));
-    const first = await names();
-    if (await page.locator('.next-plot').isVisible()) {
-      await page.locator('.next-plot').click();
-      assert.notDeepEqual(await names(), first);
-    }
+    assert.deepEqual(await beyond(page, ['.drawing svg', '.animation']), [], `${width} x ${height}`);
+    const heights = await page.locator('.plots .chart .u-over').evaluateAll((all) => all.map((area) => area.clientHeight));
+    assert.ok(heights.length > 1 && heights.every((each) => each >= 150), `${width} x ${height}: ${heights}`);
+    assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth));
     await close();
   }
 });
@@ -100,6 +95,15 @@ test('the presentation has question, schematic, plot and sliders on one screen, 
     assert.ok(await page.locator('.editor').isVisible());
     await close();
   }
+});
+
+test('in the presentation nothing covers a button of the bar', async () => {
+  const { page, close } = await open(file, { viewport: { width: 1366, height: 768 } });
+  await redrawn(page, () => number(page, 'parameters.k').fill('50').then(() => number(page, 'parameters.k').press('Enter')));
+  await page.locator('button.present').click();
+  const [reset, bar] = await Promise.all(['.undo-all', '.bar'].map((part) => page.locator(part).boundingBox()));
+  assert.ok(reset.y > bar.y + bar.height, `${reset.y}`);
+  await close();
 });
 
 test('keys present, open the netlist and come back, and the help lists them', async () => {

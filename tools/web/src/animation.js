@@ -152,6 +152,7 @@ export class Animation {
       if (scale.runs(name)) node.style.strokeDashoffset = (-(scale.run(name, i) % 1000)).toFixed(2);
     }
     for (const part of this.parts) this.drawPart(part, shift, i);
+    this.svg.closest('.drawing')?.classList.toggle('moved', this.place > 0);
     this.turning.show((node) => scale.angle(node, i));
     this.labels.place(shift);
     this.forces.host.style.display = this.shows('forces') ? '' : 'none';
@@ -198,6 +199,15 @@ export class Animation {
       requestAnimationFrame(frame);
     };
     requestAnimationFrame(frame);
+  }
+
+  // To the start, where the drawing is as it is drawn.
+  rewind() {
+    this.stop();
+    if (this.place === 0) return;
+    this.place = 0;
+    this.draw();
+    this.onframe(this.data.scene.start);
   }
 
   stop() {

@@ -29,6 +29,8 @@ export class Drawing {
     });
     this.inspector = new Inspector(this, cards);
     this.build(bar);
+    // The handles are at the places of t = 0.
+    drawing.addEventListener('pointerdown', () => this.isOn && this.desk.animation.rewind(), true);
     document.addEventListener('keydown', (event) => this.key(event));
   }
 
@@ -53,6 +55,7 @@ export class Drawing {
     this.host.classList.toggle('drawn-in', on);
     this.host.closest('.box').classList.toggle('is-drawing', on);
     this.cancel();
+    if (on) this.desk.animation.rewind();
     await this.load();
     this.follow();
     this.attach();
@@ -182,6 +185,7 @@ export class Drawing {
 
   begin(type) {
     if (this.cannot()) return;
+    this.desk.animation.rewind();
     this.placing = { type, ports: this.portsOf(type), nodes: [] };
     this.palette.mark(type);
     if (this.placing.ports.length) this.ask();

@@ -32,11 +32,13 @@ const look = EditorView.theme({
 });
 
 export class Editor {
-  // onchange(text, byUser); onmove(changes): positions have moved; `extensions`: of CodeMirror.
-  constructor(host, { onchange, onmove, extensions = [] }) {
+  // onchange(text, byUser, isOther): `isOther`: another text has taken the place of all of it; onmove(changes): positions have moved;
+  // onundo(): returns whether it has undone something other than a change of the text; `extensions`: of CodeMirror.
+  constructor(host, { onchange, onmove, onundo, extensions = [] }) {
     this.extensions = extensions;
     this.onchange = onchange;
     this.onmove = onmove;
+    this.onundo = onundo;
     this.view = new EditorView({ parent: host, state: this.stateOf('') });
   }
 
@@ -47,11 +49,14 @@ export class Editor {
         lineNumbers(), highlightActiveLine(), highlightActiveLineGutter(), drawSelection(), history(), bracketMatching(),
         StreamLanguage.define(toml), syntaxHighlighting(colours), look, lintGutter(), EditorView.lineWrapping, this.extensions,
         EditorView.contentAttributes.of({ 'aria-label': t('Netlist'), tabindex: '0' }),
-        keymap.of([...defaultKeymap, ...historyKeymap, ...lintKeymap]),
+        keymap.of([{ key: 'Mod-z', run: () => this.onundo() }, ...defaultKeymap, ...historyKeymap, ...lintKeymap]),
         EditorView.updateListener.of((update) => {
           if (!update.docChanged) return;
           this.onmove(update.changes);
-          this.onchange(this.text, !this.quiet);
+          let isOther = false;
+          const { length } = update.startState.doc;
+          update.changes.iterChangedRanges((from, to) => (isOther ||= length > 0 && from === 0 && to === length));
+          this.onchange(this.text, !this.quiet, isOther);
         }),
       ],
     });
@@ -86,7 +91,7 @@ export class Editor {
 
   undo() {
     this.quiet = true;
-    undo(this.view);
+    if (!this.onundo()) undo(this.view);
     this.quiet = false;
   }
 

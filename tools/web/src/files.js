@@ -37,9 +37,9 @@ export class Files {
     }
   }
 
-  // Opens the scene of the address, or else the first scene. Unsaved changes are restored.
+  // Opens the scene of the address, or else the first scene. Unsaved changes are restored, and so is a lesson.
   async openAddress(left) {
-    if (left?.scenes) this.desk.begin(left, t('The netlist is as you left it; it is not saved.'));
+    if (left?.scenes) this.desk.begin(left, left.scenes.some(({ text, opened }) => text !== opened) ? t('The netlist is as you left it; it is not saved.') : '');
     else if (await this.openLink()) return true;
     else this.desk.begin({ scenes: [{ text: firstScene, file: 'scene.toml' }] });
     return Boolean(left?.scenes);
@@ -79,10 +79,10 @@ export class Files {
     }
   }
 
-  // Leaves the file for a scene without a file, with a new entry in the browser's history.
-  leave() {
-    this.keep();
-    history.pushState(null, '', location.pathname + location.search);
+  // Leaves the scenes for others, with a new entry in the browser's history.
+  leave(to = location.pathname + location.search) {
+    this.keep(true);
+    history.pushState(null, '', to);
   }
 
   nameInAddress(file, anew = false, lesson = false) {
@@ -94,14 +94,15 @@ export class Files {
     this.later = setTimeout(() => this.keep(), pause);
   }
 
-  // Keeps unsaved changes in the browser's history, for going back or reloading.
-  keep() {
+  // Keeps unsaved changes and a lesson in the browser's history, for going back or reloading.
+  keep(always = false) {
     clearTimeout(this.later);
-    const { variants, active, plots } = this.desk;
-    const unsaved = variants.some(({ text, opened }) => text !== opened);
+    const { variants, active, plots, course } = this.desk;
+    const lesson = course.state;
+    const unsaved = always || lesson || variants.some(({ text, opened }) => text !== opened);
     const scenes = variants.map(({ text, file, version, opened }) => ({ text, file, version, opened }));
     try {
-      history.replaceState(unsaved ? { scenes, active, plots: plots.state } : null, '', location.href);
+      history.replaceState(unsaved ? { scenes, active, plots: plots.state, lesson } : null, '', location.href);
     } catch {
       // Texts that are too long are not kept.
     }
@@ -161,8 +162,9 @@ export class Files {
     }
   }
 
-  // The address of the page carries the scene from now on.
+  // The address of the page carries the scene from now on; that of a lesson opens the lesson.
   putInAddress() {
+    if (this.desk.course.isOn) return;
     const { variants, plots } = this.desk;
     history.replaceState(history.state, '', `#${encode({ scenes: variants, plots: plots.state })}`);
   }
@@ -174,11 +176,13 @@ export class Files {
 
   async copyLink() {
     this.putInAddress();
+    const isLesson = this.desk.course.isOn;
     try {
       await navigator.clipboard.writeText(location.href);
-      this.desk.answer(t('The link is copied: it carries the scene.'));
+      const text = isLesson ? t('The link is copied: it opens the lesson.') : t('The link is copied: it carries the scene.');
+      this.desk.answer(location.protocol === 'file:' ? `${text} ${t('It opens only where this file is at the same place.')}` : text);
     } catch {
-      this.desk.answer(t('The address of this page carries the scene.'));
+      this.desk.answer(isLesson ? t('The address of this page opens the lesson.') : t('The address of this page carries the scene.'));
     }
   }
 }

@@ -26,6 +26,12 @@ export class Folds {
     [this.effects, this.prices, this.sweep].forEach((analysis) => analysis.stop());
   }
 
+  // Call for another scene.
+  renew() {
+    this.sweep.clear();
+    this.explained = null;
+  }
+
   // Shows the sections; open ones stay open. `runs` has all compared runs, `data` is the run that is edited.
   show(data, runs) {
     this.opened = new Set([...this.host.querySelectorAll('details[open]')].map((details) => details.dataset.name));

@@ -105,6 +105,8 @@ export class Gallery {
   }
 
   open() {
+    this.find.value = '';
+    this.filter();
     this.dialog.showModal();
     this.find.focus();
   }

@@ -27,15 +27,23 @@ export class Lesson {
     return document.body.classList.contains('predicting');
   }
 
-  // Starts the lesson of a netlist that has just been opened. Mistakes in the lesson's file are shown in its place.
-  async begin({ text, file }) {
+  // What the student has done so far, to go on from there.
+  get state() {
+    return this.told && { prediction: this.prediction?.state ?? null, original: this.shown && this.original };
+  }
+
+  // Starts the lesson of a netlist that has just been opened; `left`: its state, to go on. Mistakes in the lesson's file are shown in its
+  // place.
+  async begin({ text, file, opened = text }, left) {
     this.end();
+    Object.assign(this, { left, opened });
+    document.body.classList.add('in-lesson');
     const asked = (this.asked = {});
     this.conceal(true);
     let told = null;
     let mistakes = [];
     try {
-      await task({ task: 'lesson', text, file, language: this.language }, (message) => {
+      await task({ task: 'lesson', text: opened, file, language: this.language }, (message) => {
         if (message.kind === 'lesson') told = message;
         if (message.kind === 'mistakes') mistakes = message.items.map((item) => item.text);
         if (message.kind === 'failed') mistakes = [message.message];
@@ -52,6 +60,7 @@ export class Lesson {
     this.asked = this.told = this.data = null;
     this.chart?.destroy();
     this.chart = null;
+    document.body.classList.remove('in-lesson');
     this.conceal(false);
     this.body?.remove();
     this.body = null;
@@ -69,6 +78,7 @@ export class Lesson {
   }
 
   refuse(mistakes) {
+    document.body.classList.remove('in-lesson');
     this.conceal(false);
     this.put(mistakes.length ? mistakes.map((text) => element('pre', { class: 'bad', tabindex: '0' }, text)) : element('p', { class: 'note' }, t('This netlist has no lesson.')));
   }
@@ -84,12 +94,12 @@ export class Lesson {
       told.demo.question ? element('p', { class: 'question' }, richText(told.demo.question)) : null,
       (this.ask = element('section', {}, element('h3', {}, t('1. Predict')), paragraphs(told.predict.prompt))),
       (this.steps = element('div')));
-    if (this.data) this.take(this.data);
+    if (this.data) this.take(this.data, this.text);
   }
 
-  // The run of the netlist as it is now.
-  take(data) {
-    this.data = data;
+  // The run of the netlist as it is now. The verdict is on the run that was predicted.
+  take(data, text) {
+    Object.assign(this, { data, text });
     if (!this.told || !data.scene) return;
     if (!this.prediction) this.offer();
     if (this.shown) this.draw();
@@ -106,15 +116,19 @@ export class Lesson {
     this.prediction = predictionOf(this.told.predict, () => (done.disabled = !this.prediction.isComplete), record);
     this.done = done;
     this.ask.append(this.prediction.host, done);
+    const { left } = this;
+    this.left = null;
+    if (left?.prediction != null) this.prediction.restore(left.prediction);
+    if (left?.original) this.compare(left.original);
   }
 
-  // Shows the run after the prediction has been made.
-  compare() {
+  // Shows the run after the prediction has been made. `original`: the numbers that the presets change, as they were then.
+  compare(original) {
     const { told, prediction } = this;
     prediction.settle();
     this.done.remove();
     this.conceal(false);
-    this.original = this.sliders.literals(this.names);
+    this.original = original ?? this.sliders.literals(this.names);
     const chart = element('div');
     this.verdict = element('div', { role: 'status' });
     this.steps.append(...[
@@ -162,8 +176,12 @@ export class Lesson {
     const { x, y } = this.told.predict;
     if (!this.data.hasCurves || !this.record(y)) return;
     const isOver = this.data.done || this.data.failed;
-    if (isOver && !this.judged) this.verdict.append(...this.prediction.verdict(this.runCurve()));
-    this.judged ||= isOver;
+    const isFirst = this.text === this.opened;
+    this.verdict.hidden = !isFirst;
+    if (isOver && isFirst && !this.judged) {
+      this.verdict.append(...this.prediction.verdict(this.runCurve()));
+      this.judged = true;
+    }
     const curves = [{ name: t('the run'), ...this.runCurve(), style: 0 }, { name: t('your prediction'), x: this.prediction.curve.x, y: this.prediction.curve.y, style: 1, dash: 1 }];
     if (this.chart) {
       this.chart.update(curves);

@@ -57,6 +57,11 @@ export class MotionScale {
     const isSeen = !sizes.length || all * median(sizes) >= least;
     this.px = isSeen ? all : usual / median(sizes);
     if (!isSeen) this.follow();
+    // What touches is drawn at one scale.
+    if (this.links.some(({ type, a, b }) => type === 'stop' && this.drift.get(a) !== this.drift.get(b))) {
+      this.px = all;
+      this.drift.clear();
+    }
   }
 
   // Groups the nodes between which no element stretches beyond `room`. The mean motion of a group that leaves the drawing is subtracted.

@@ -40,11 +40,12 @@ class Playground {
     this.files = new Files(this);
     this.build(host);
     this.editor = new Editor(this.parts.editor, {
-      onchange: (text, typed) => this.edited(text, typed),
+      onchange: (text, typed, isOther) => this.edited(text, typed, isOther),
       onmove: (changes) => {
         this.sliders?.move(changes);
         this.drawing?.inspector.move(changes);
       },
+      onundo: () => this.revoke(),
       extensions: assistance(() => this.drawing),
     });
     this.sliders = new Sliders(this.parts.sliders, this.editor);
@@ -148,7 +149,10 @@ class Playground {
   // Replaces all scenes by one scene, or by two to compare.
   begin({ scenes, active = scenes.length - 1, plots = {}, lesson = false }, notice = '') {
     this.endComparison();
+    this.revocable = null;
     this.course.end();
+    this.presentation.showNetlist(false);
+    this.folds.renew();
     this.traces.clear();
     this.plots.state = plots ?? {};
     if (notice) this.notify(notice);
@@ -156,13 +160,28 @@ class Playground {
     this.active = scenes[active] ? active : 0;
     this.showChoice();
     scenes.forEach((scene, k) => this.load(k, scene));
-    if (lesson) this.course.begin(scenes[0]);
+    if (lesson) this.course.begin(scenes[0], lesson);
   }
 
   beginAnew() {
     this.files.leave();
     this.begin({ scenes: [{ text: emptyScene, file: 'scene.toml' }] });
     this.drawing.switch(true);
+    this.offerBack(t('A new scene. Undo brings back the one before.'));
+  }
+
+  // What has replaced the scenes can be undone until something else changes, and again when that is undone.
+  offerBack(text) {
+    this.revocable = { text: this.current.text, said: text };
+    this.answer(text, false, () => this.revoke());
+  }
+
+  revoke() {
+    if (this.revocable?.text !== this.current.text) return false;
+    this.revocable = null;
+    this.toast.hidden = true;
+    history.back();
+    return true;
   }
 
   // Texts and runs.
@@ -177,6 +196,7 @@ class Playground {
       this.clear();
     }
     this.showBusy();
+    clearTimeout(this.typing); // of the text before
     variant.runner.run(text, file);
   }
 
@@ -201,9 +221,13 @@ class Playground {
     variant.fresh = false;
   }
 
-  edited(text, typed) {
+  edited(text, typed, isOther) {
     const variant = this.current;
     variant.text = text;
+    if (isOther) {
+      variant.fresh = true;
+      this.folds.renew();
+    }
     this.showBusy();
     this.folds.stop();
     this.files.changed();
@@ -255,17 +279,20 @@ class Playground {
         this.notice = null;
         return;
       }
-      this.say(t('{steps} steps, {time}; drawn {took} ms after the change', { steps: data.done.statistics.steps, time: runTime(data.done.statistics), took: Math.round(took) }));
+      const { statistics } = data.done;
+      const values = { steps: statistics.steps, time: runTime(statistics), took: Math.round(took) };
+      this.say(statistics.steps === 1 ? t('One step, {time}; drawn {took} ms after the change', values) : t('{steps} steps, {time}; drawn {took} ms after the change', values));
     });
   }
 
   // The outcome of an action, wherever the page has been scrolled to.
-  answer(text, bad = false) {
+  answer(text, bad = false, undo = null) {
     this.say(text, bad);
-    this.toast.textContent = text;
+    this.toast.replaceChildren(text, ...(undo ? [' ', element('button', { type: 'button', onclick: undo }, t('Undo'))] : []));
+    this.toast.setAttribute('aria-hidden', String(!undo));
     this.toast.hidden = false;
     clearTimeout(this.toasted);
-    this.toasted = setTimeout(() => (this.toast.hidden = true), 4000);
+    this.toasted = setTimeout(() => (this.toast.hidden = true), undo ? 8000 : 4000);
   }
 
   // Stays until the next change.
@@ -287,7 +314,7 @@ class Playground {
     this.showLesson(scene);
     this.showSchematic(scene);
     this.animation.attach(this.parts.drawing.querySelector('svg'), data);
-    this.course.take(data);
+    this.course.take(data, this.current.shown ?? this.current.text);
   }
 
   showTitle(title) {
@@ -351,9 +378,11 @@ class Playground {
 
   compare() {
     if (this.variants.length > 1) {
+      this.files.leave(location.href);
       this.endComparison();
       this.showPlots();
       this.showSections();
+      this.offerBack(t('The comparison has ended. Undo brings it back.'));
       return;
     }
     const { text, file, version, opened, data, shown } = this.current;

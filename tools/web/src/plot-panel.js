@@ -14,7 +14,7 @@ const kinds = [
   { id: 'flow', label: t('Force against velocity'), x: 'velocity', y: 'force' },
   { id: 'phase', label: t('Phase plane'), x: 'position', y: 'velocity' },
 ];
-const leastHeight = 125; // Smallest legible chart [px].
+const least = (usual, presenting) => (document.body.classList.contains('presenting') ? presenting : usual); // Heights [px].
 const few = { curves: 4, panels: 3, all: 8 }; // Default limits: curves of one quantity, panels, curves in all.
 
 const sentence = (text) => `${text[0]?.toUpperCase() ?? ''}${text.slice(1)}${/[.!?]$/.test(text) ? '' : '.'}`;
@@ -83,14 +83,16 @@ export class PlotPanel {
     this.charts.forEach((chart) => chart.hold(on));
   }
 
-  // The charts share the height that there is; where it is too little for all, some are shown at a time.
+  // The charts share the height that there is; where it is too little for all, a presentation shows some at a time.
   fit() {
-    const room = this.body.clientHeight;
-    if (!this.fits || !room || !this.charts.length) return;
+    if (!this.fits || !this.body.clientHeight || !this.charts.length) return;
     const hosts = this.charts.map(({ host }) => host);
     hosts.forEach((host) => (host.hidden = false));
     const beside = hosts.map((host, k) => host.offsetHeight - this.charts[k].height); // legends
-    const most = Math.max(1, Math.floor(room / (leastHeight + Math.max(...beside))));
+    const needed = least(290, 125) + Math.max(...beside);
+    this.body.style.minHeight = `${least(needed * hosts.length, 0)}px`; // The page scrolls where the screen is too small.
+    const room = this.body.clientHeight;
+    const most = Math.max(1, Math.floor(room / needed));
     const count = Math.min(most, hosts.length);
     this.first = Math.min(this.first, hosts.length - count);
     const shown = hosts.map((_, k) => k >= this.first && k < this.first + count);

@@ -26,16 +26,13 @@ function pictures(choices) {
 
 class Choice {
   constructor({ choices }, onchange) {
-    this.choices = choices;
+    Object.assign(this, { choices, onchange });
     this.chosen = null;
     const name = freshId('choice');
     const drawn = pictures(choices);
     this.inputs = choices.map((choice, k) => {
       const input = element('input', { type: 'radio', name });
-      input.addEventListener('change', () => {
-        this.chosen = k;
-        onchange();
-      });
+      input.addEventListener('change', () => this.restore(k));
       return input;
     });
     this.host = element('div', { class: 'choices', role: 'radiogroup', 'aria-label': t('Which curve do you expect?') },
@@ -48,6 +45,15 @@ class Choice {
 
   get curve() {
     return this.choices[this.chosen];
+  }
+
+  get state() {
+    return this.chosen;
+  }
+  restore(state) {
+    this.chosen = state;
+    this.inputs[state].checked = true;
+    this.onchange();
   }
 
   settle() {
@@ -74,6 +80,13 @@ class Drawing {
 
   get curve() {
     return this.sketch.curve;
+  }
+
+  get state() {
+    return this.sketch.values;
+  }
+  restore(state) {
+    this.sketch.take(state);
   }
 
   settle() {

@@ -21,8 +21,7 @@ export class Presentation {
 
   toggle(on = !this.isOn) {
     document.body.classList.toggle('presenting', on);
-    document.body.classList.remove('netlist-open');
-    this.netlistButton.setAttribute('aria-pressed', 'false');
+    this.showNetlist(false);
     this.presentButton.setAttribute('aria-pressed', String(on));
     this.presentButton.textContent = on ? t('End') : t('Present');
     this.presentButton.title = on ? t('Back to all of the page (P)') : t('Question, schematic, plots and sliders on one screen (P)');
@@ -31,10 +30,16 @@ export class Presentation {
   }
 
   toggleNetlist() {
-    if (!this.isOn) return;
-    const open = document.body.classList.toggle('netlist-open');
-    this.netlistButton.setAttribute('aria-pressed', String(open));
+    const { classList } = document.body;
+    if (!this.isOn && !classList.contains('in-lesson')) return;
+    const open = !classList.contains('netlist-open');
+    this.showNetlist(open);
     if (open) document.querySelector('.cm-content')?.focus();
+  }
+
+  showNetlist(open) {
+    document.body.classList.toggle('netlist-open', open);
+    this.netlistButton.setAttribute('aria-pressed', String(open));
   }
 
   async toggleScreen() {

@@ -157,7 +157,11 @@ export class Sketch {
   }
 
   clear() {
-    this.values.fill(null);
+    this.take(Array(columns + 1).fill(null));
+  }
+
+  take(values) {
+    this.values = [...values];
     this.at = 0;
     this.show();
     this.onchange();

@@ -24,6 +24,11 @@ const decimal = /^[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i;
 
 export class SweepPanel {
   constructor() {
+    this.clear();
+  }
+
+  // For another scene.
+  clear() {
     this.chosen = { count: '40' }; // what somebody has chosen stays when the netlist changes
     this.drawn = [];
   }
@@ -63,11 +68,13 @@ export class SweepPanel {
       this.fields.replaceChildren(element('p', { class: 'note' }, t('The netlist has no numbers to turn.')));
       return;
     }
+    const of = `${knob.path} ${knob.unit}`;
+    if (chosen.of !== of) ['low', 'high', 'log'].forEach((key) => delete chosen[key]);
+    chosen.of = of;
     const choose = (key, label, values, now) => {
       const select = element('select', { 'aria-label': label }, values.map(([value, name]) => element('option', { value, selected: value === now }, name)));
       select.addEventListener('change', () => {
         chosen[key] = select.value;
-        if (key === 'path') ['low', 'high', 'log'].forEach((other) => delete chosen[other]);
         this.build();
       });
       return select;
