@@ -175,10 +175,19 @@ bool LinearEquations::too_stiff(double interval) {
   if (!extremes_) {
     extremes_.emplace();
     for (const StateGroup& group : groups_) {
-      const Eigen::VectorXcd rates = MatrixXd(A_(group, group)).eigenvalues();
-      extremes_->fastest = std::max(extremes_->fastest, rates.cwiseAbs().maxCoeff());
-      const double fastest = rates.cwiseAbs().maxCoeff(), slowest = rates.cwiseAbs().minCoeff();
-      if (fastest > numerics::arc_gap * numerics::arc_gap * slowest) extremes_->mixed_decay = std::max(extremes_->mixed_decay, -rates.real().minCoeff());
+      // Eigenvalues are the diagonal of the real Schur form, but for its blocks of two, which have a complex pair.
+      const MatrixXd T = Eigen::RealSchur<MatrixXd>(A_(group, group), false).matrixT();
+      double fastest = 0, slowest = std::numeric_limits<double>::infinity(), decay = 0;
+      for (Index i = 0, rows = 1; i < T.rows(); i += rows) {
+        rows = i + 1 < T.rows() && T(i + 1, i) != 0 ? 2 : 1;
+        const auto block = T.block(i, i, rows, rows);
+        const double rate = rows == 1 ? std::abs(block(0, 0)) : std::sqrt(std::abs(block(0, 0) * block(1, 1) - block(0, 1) * block(1, 0)));
+        fastest = std::max(fastest, rate);
+        slowest = std::min(slowest, rate);
+        decay = std::max(decay, -block.trace() / static_cast<double>(rows));
+      }
+      extremes_->fastest = std::max(extremes_->fastest, fastest);
+      if (fastest > numerics::arc_gap * numerics::arc_gap * slowest) extremes_->mixed_decay = std::max(extremes_->mixed_decay, decay);
     }
   }
   return extremes_->fastest * interval > numerics::arc_steps || extremes_->mixed_decay * interval > numerics::arc_decays;

@@ -12,7 +12,7 @@ const nameOfLicence = (stanza) => field(stanza, 'License').split('\n')[0];
 function aboutFiles(text, inside) {
   const stanzas = text.split(/\n(?:[ \t]*\n)+/);
   const kept = new Set(stanzas.filter((stanza) => field(stanza, 'Files').split(/\s+/).some(inside)));
-  const named = new Set([...kept].flatMap((stanza) => nameOfLicence(stanza).split(/\s+(?:and|or|with)\s+|,\s*/)));
+  const named = new Set([...kept].flatMap((stanza) => [nameOfLicence(stanza), ...nameOfLicence(stanza).split(/\s+(?:and|or|with)\s+|,\s*/)]));
   return stanzas.filter((stanza) => !/^(Files|License):/m.test(stanza) || kept.has(stanza) || (/^License:/.test(stanza) && named.has(nameOfLicence(stanza)))).join('\n\n');
 }
 
@@ -30,7 +30,8 @@ export function licencesOfModule(sources) {
     ['Boost', debian('libboost-dev', 'libboost1.74-dev')],
     ['Eigen', debian('libeigen3-dev')],
     ['fast_float', debian('libfast-float-dev')],
-    ['{fmt}', debian('libfmt-dev')],
+    // Of {fmt} without its documentation and its build.
+    ['{fmt}', debian('libfmt-dev'), (text) => aboutFiles(text, (file) => file === '*')],
     ['JSON for Modern C++', debian('nlohmann-json3-dev')],
     ['toml++', debian('libtomlplusplus-dev')],
     // Of Emscripten the module holds what was written for every program (*) and the run-time libraries, not their tests.
