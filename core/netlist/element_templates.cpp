@@ -236,22 +236,27 @@ const Declaration* TemplateReader::find_type(const std::string& type) const {
 
 void TemplateReader::refuse_type(const TomlEntry& type, const TomlValue& entry) {
   const bool at = entry.find("at"), between = entry.find("between");
-  const auto may_be_meant = [&](Declaration::Ports ports) {
-    return ports == Declaration::Ports::block ? !at && !between : ports == Declaration::Ports::at_or_between || (ports == Declaration::Ports::at ? !between : !at);
-  };
-  std::vector<std::string> names;
+  // No block is meant where nodes are named; a name may be misspelt by who also errs in the nodes.
+  std::vector<std::string> names, fitting;
   for (const Declaration* d : context_.declarations) {
-    if (!may_be_meant(d->ports)) continue;
-    names.push_back(d->type);
-    if (!d->rotational_type.empty()) names.push_back(d->rotational_type);
+    if (d->ports == Declaration::Ports::block && (at || between)) continue;
+    const bool fits = d->ports == Declaration::Ports::at_or_between || d->ports == Declaration::Ports::block || (d->ports == Declaration::Ports::at ? !between : !at);
+    for (const std::string& name : {d->type, d->rotational_type}) {
+      if (name.empty()) continue;
+      names.push_back(name);
+      if (fits) fitting.push_back(name);
+    }
   }
-  for (const auto& [name, model] : models_) names.push_back(name);
+  for (const auto& [name, model] : models_) {
+    names.push_back(name);
+    fitting.push_back(name);
+  }
   std::string hint = called_here(type.value.text, context_.declarations);
   std::string model = type.value.text;
   std::replace(model.begin(), model.end(), '_', '-');
   if (const std::string file = hint.empty() ? context_.files.library_file_of(model) : ""; !file.empty())
     hint = "`" + model + "` is in the library: include = [\"" + file + "\"]";
-  if (hint.empty()) hint = did_you_mean(type.value.text, names, "the types " + std::string(at ? "that stand at a node " : between ? "that stand between nodes " : "") + "are " + list_names(names, "and"));
+  if (hint.empty()) hint = did_you_mean(type.value.text, names, "the types " + std::string(at ? "that stand at a node " : between ? "that stand between nodes " : "") + "are " + list_names(fitting, "and"));
   context_.diagnostics.error(type.value.spot, "unknown element type `" + type.value.text + "`", std::move(hint));
 }
 

@@ -27,7 +27,7 @@ a = { position = "1 mm" }
 stop = 1
 record = ["k1.force"]
 TOML
-sweep=(sweep scene.toml --vary 'k1.stiffness=normal(100 N/m, 5 %)' 'm1.mass=lognormal(1 kg, 0.1)' --correlate k1.stiffness,m1.mass=0.5 --random 3500
+sweep=(sweep scene.toml --vary 'k1.stiffness=normal(100 N/m, 5 %)' 'm1.mass=lognormal(1 kg, 0.1)' --correlate k1.stiffness,m1.mass=0.5 --random 1000
   --measure 'max(k1.force)' 'time of crossing(k1.force, 0 N)')
 "$program" "${sweep[@]}" -q -o whole.csv
 
