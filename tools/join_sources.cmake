@@ -1,7 +1,8 @@
 # Sources of one folder are compiled several at a time, because they mostly read the same headers: that takes a third of the
 # time. A file's own names (in `namespace {`) are therefore unique in its folder. -DCMAKE_UNITY_BUILD=OFF compiles each alone.
 set(CMAKE_UNITY_BUILD ON CACHE BOOL "Compile several sources of a folder at a time")
-function(join_sources target sources_together)
+set(RHEONET_SOURCES_TOGETHER 24)
+function(join_sources target)
   get_target_property(sources ${target} SOURCES)
   set_target_properties(${target} PROPERTIES UNITY_BUILD_MODE GROUP)
   set(last "")
@@ -12,7 +13,7 @@ function(join_sources target sources_together)
       set(last ${folder})
       set(count 0)
     endif()
-    math(EXPR group "${count} / ${sources_together}")
+    math(EXPR group "${count} / ${RHEONET_SOURCES_TOGETHER}")
     math(EXPR count "${count} + 1")
     set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${folder}_${group})
   endforeach()

@@ -116,7 +116,7 @@ std::string without_curly_quotes(std::string_view word) {
   return encode(plain);
 }
 
-/// What would mend a key that ends before `found`, where `=` is expected.
+/// A hint for a key that ends before `found`, where `=` is expected; empty if nothing is known.
 std::string hint_for_key(std::string_view found) {
   if (found == ":") return "a value follows `=`";
   if (!found.empty() && static_cast<unsigned char>(found.front()) >= 0x80U) return "a key is made of a to z, A to Z, 0 to 9, `_` and `-`";

@@ -254,7 +254,7 @@ void TemplateReader::refuse_type(const TomlEntry& type, const TomlValue& entry) 
   std::string hint = called_here(type.value.text, context_.declarations);
   std::string model = type.value.text;
   std::replace(model.begin(), model.end(), '_', '-');
-  if (const std::string file = hint.empty() ? context_.files.library_file_of(model) : ""; !file.empty())
+  if (const std::string file = hint.empty() ? context_.files.file_with_model(model) : ""; !file.empty())
     hint = "`" + model + "` is in the library: include = [\"" + file + "\"]";
   if (hint.empty()) hint = did_you_mean(type.value.text, names, "the types " + std::string(at ? "that stand at a node " : between ? "that stand between nodes " : "") + "are " + list_names(fitting, "and"));
   context_.diagnostics.error(type.value.spot, "unknown element type `" + type.value.text + "`", std::move(hint));

@@ -77,7 +77,7 @@ std::optional<Files::Found> Files::find_on_disk(const TomlValue& name, const Pla
   return {};
 }
 
-std::string Files::library_file_of(std::string_view name) const {
+std::string Files::file_with_model(std::string_view name) const {
   std::set<std::string> files;
   for (const fs::path& folder : library_) {
     std::error_code failed;

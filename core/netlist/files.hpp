@@ -40,7 +40,7 @@ class Files {
   std::optional<Found> find(const TomlValue& name, int from, DiagnosticList& diagnostics) const;
 
   /// The file of the library that has a model or law of this name, as `include` names it; "" if there is none.
-  std::string library_file_of(std::string_view name) const;
+  std::string file_with_model(std::string_view name) const;
 
   /// Reads a whole file and adds it; a failure is a mistake at `spot`.
   std::optional<int> read(const Found& found, Sources::Role role, Spot spot, DiagnosticList& diagnostics);

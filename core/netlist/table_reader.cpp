@@ -34,7 +34,7 @@ std::string place_of(std::string_view key) {
   return "";
 }
 
-/// What would mend a key that its table does not have; empty if nothing is known.
+/// A hint for a key that its table does not have; empty if nothing is known.
 std::string remedy_for(const TomlEntry& entry, const std::vector<std::string>& known) {
   const auto has = [&](std::string_view key) { return std::find(known.begin(), known.end(), key) != known.end(); };
   if (entry.value.is_table() && (entry.value.find("type") || entry.value.find("series") || entry.value.find("parallel")))

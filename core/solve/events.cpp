@@ -1,7 +1,5 @@
 #include "core/solve/events.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,10 +7,8 @@
 #include <map>
 #include <utility>
 
-#include "core/base/format_list.hpp"
 #include "core/base/index.hpp"
 #include "core/base/numerics.hpp"
-#include "core/network/adjacent_elements.hpp"
 
 namespace rheonet {
 
@@ -147,36 +143,6 @@ double NetworkEvents::band(int k) const {
   return which == of_slider && dae_.structure().stuck[at(slider)] && !moved_apart(slider) ? force_band(slider) : 0;
 }
 
-/// The largest force of a spring, or a law with a memory, that has a node other than ground in common with this branch [N].
-double NetworkEvents::force_beside(const Branch& branch, const Dae::View& view) const {
-  double largest = 0;
-  const auto common = [&](NodeId node) { return node != ground && (node == branch.a || node == branch.b); };
-  for (std::size_t j = 0; j < view.f.size(); ++j) {
-    const Branch& b = dae_.network().deflections[j];
-    if (common(b.a) || common(b.b)) largest = std::max(largest, std::abs(view.f[j]));
-  }
-  return largest;
-}
-
-void NetworkEvents::refuse_contradictions(double t, const Dae::View& view) const {
-  const Network& network = dae_.network();
-  for (std::size_t i = 0; i < sliders_.size(); ++i) {
-    const int k = sliders_[i];
-    const bool stuck = dae_.structure().stuck[at(k)];
-    const double bound = dae_.inputs().box(at(k)).largest();
-    // Where the bounds are 0 or infinite, round-off has nothing to be compared with.
-    if (stuck && (moved_apart(k) || bound == 0)) continue;
-    const double scale = stuck ? std::max(bound, tolerances_.held_seen(k)) : tolerances_.largest_velocity();
-    const Branch& branch = network.sliders[at(k)].branch;
-    const double rounding = stuck ? numerics::balance_roundoff * force_beside(branch, view) : 0;
-    if (at_begin_[law_margin_.size() + i] >= -numerics::slip_against_force * scale - rounding) continue;
-    throw SimulationError(network.spot_of(branch.element), fmt::format(
-        "{} no motion was found in which `{}` {}: the values of {} may lie too far apart for double "
-        "precision; check them",
-        rheonet::at_time(*network.scene, t), network.name_of(branch), stuck ? "sticks within its bounds" : "slips the way it is pushed", format_list(elements_at(network, {branch.a, branch.b}))));
-  }
-}
-
 void NetworkEvents::begin(double t, const double* y, const double* yp) {
   right_time_ = not_looked;
   find_returning();
@@ -217,25 +183,6 @@ std::vector<NetworkEvents::Turned> NetworkEvents::turned(double t, const std::ve
   for (const int k : sliders_) {
     const double against = -modes_.slider[at(k)] * view.slider_velocity[at(k)];
     if (!dae_.structure().stuck[at(k)] && against > 0) laws.push_back({k, against, true});
-  }
-  return laws;
-}
-
-std::vector<NetworkEvents::Contradicted> NetworkEvents::contradicted(double t, const std::vector<double>& y, const std::vector<double>& yp) {
-  const auto rests = [](const Watched& law) { return law.batch->direction(law.i) == 0; };
-  std::vector<Contradicted> laws;
-  if (std::none_of(watched_.begin(), watched_.end(), rests)) return laws;
-  const Dae::View& view = resolved(t, y.data(), yp.data());
-  for (const Watched& law : watched_) {
-    if (!rests(law)) continue;
-    const double velocity = view.flow[at(law.branch)], far = numerics::resolved_dead_bands * tolerances_.dead_band(law.branch);
-    if (law.batch->holds(law.i)) {
-      const std::array<double, numerics::held_law_events> g = held_functions(law, view);
-      const auto first = std::min_element(g.begin(), g.end());
-      if (*first < -far) laws.push_back({law.branch, velocity, static_cast<int>(first - g.begin())});
-    } else if (!law.batch->fits(law.i, velocity) && std::abs(velocity) > far) {
-      laws.push_back({law.branch, velocity});
-    }
   }
   return laws;
 }

@@ -24,7 +24,7 @@ class NetworkEvents final : public EventFunctions {
   NetworkEvents(Dae& dae, Consistency& consistency, const Tolerances& tolerances, const Modes& modes);
 
   /// Call at the beginning of an interval between discontinuities. A guard violated there by round-off gets a margin, so that
-  /// it does not fire at once. Throws SimulationError where a slider slips against its force by more than round-off.
+  /// it does not fire at once.
   void begin(double t, const double* y, const double* yp);
 
   /// A law or slider that moves against the direction of its mode, at this speed [m/s].
@@ -32,10 +32,10 @@ class NetworkEvents final : public EventFunctions {
   std::vector<Turned> turned(double t, const std::vector<double>& y, const std::vector<double>& yp);
   /// A law whose memory says that it rests, while the equations of these modes give it a velocity far above its dead band [m/s]; or that
   /// is held at rest, while its event `which` is over by as much.
-  /// Throws SimulationError where a slider began, at t, to stick with a force far above its bound, or to slip against its force.
-  void refuse_contradictions(double t, const Dae::View& view) const;
   struct Contradicted { int branch; double velocity; int which = -1; };
   std::vector<Contradicted> contradicted(double t, const std::vector<double>& y, const std::vector<double>& yp);
+  /// Throws SimulationError where a slider began, at t, to stick with a force far above its bound, or to slip against its force.
+  void refuse_contradictions(double t, const double* y, const double* yp) const;
   /// Slipping sliders that reverse as the sliders `stopped` stop, because a node of both loses the residual slip velocity.
   std::vector<int> stopped_along(double t, const std::vector<double>& y, const std::vector<double>& yp, const std::vector<int>& stopped);
 
@@ -93,7 +93,6 @@ class NetworkEvents final : public EventFunctions {
   double slider_function(int slider, const Dae::View& view) const;
   bool moved_apart(int slider) const;
   double force_band(int slider) const;
-  double force_beside(const Branch& branch, const Dae::View& view) const;
   double limit_function(std::size_t limit) const;
   double loss_function(std::size_t loss, const Dae::View& view) const;
   /// Guard k of the sliders, then of the limits, in the state of the view.

@@ -398,7 +398,7 @@ class Run {
       leave(t);
       cross(t, false, take_contradictions(*system_, laws, t, y_, yp_).sudden);
     }
-    system_->events.refuse_contradictions(t, system_->dae.view(t, y_.data(), yp_.data()));
+    system_->events.refuse_contradictions(t, y_.data(), yp_.data());
   }
 
   void soften_laws() {

@@ -1,4 +1,4 @@
-// The licences of what others wrote and the module holds: of their texts, the parts about what is in it.
+// The licences of the libraries in the module. Only the parts of their texts about files that the module is made of are kept.
 import { existsSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
 
@@ -30,11 +30,11 @@ export function licencesOfModule(sources) {
     ['Boost', debian('libboost-dev', 'libboost1.74-dev')],
     ['Eigen', debian('libeigen3-dev')],
     ['fast_float', debian('libfast-float-dev')],
-    // Of {fmt} without its documentation and its build.
+    // Without the documentation and the build of {fmt}.
     ['{fmt}', debian('libfmt-dev'), (text) => aboutFiles(text, (file) => file === '*')],
     ['JSON for Modern C++', debian('nlohmann-json3-dev')],
     ['toml++', debian('libtomlplusplus-dev')],
-    // Of Emscripten the module holds what was written for every program (*) and the run-time libraries, not their tests.
+    // The module holds Emscripten's run-time libraries and what it adds to every program (*), without tests.
     ['The run-time libraries of Emscripten', debian('emscripten'), (text) => aboutFiles(text, (file) => file === '*' || /^system\/lib\/(?!.*(test|bench|fuzz))/.test(file))],
   ];
   return parts.map(([name, file, part = (text) => text]) => {

@@ -27,7 +27,7 @@ export class Lesson {
     return document.body.classList.contains('predicting');
   }
 
-  // What the student has done so far, to go on from there.
+  // The steps that the student has done, to go on from there.
   get state() {
     return this.told && { prediction: this.prediction?.state ?? null, original: this.shown && this.original };
   }

@@ -57,7 +57,7 @@ export class MotionScale {
     const isSeen = !sizes.length || all * median(sizes) >= least;
     this.px = isSeen ? all : usual / median(sizes);
     if (!isSeen) this.follow();
-    // What touches is drawn at one scale.
+    // Parts that can touch are drawn at one scale.
     if (this.links.some(({ type, a, b }) => type === 'stop' && this.drift.get(a) !== this.drift.get(b))) {
       this.px = all;
       this.drift.clear();

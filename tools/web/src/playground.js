@@ -170,9 +170,9 @@ class Playground {
     this.offerBack(t('A new scene. Undo brings back the one before.'));
   }
 
-  // What has replaced the scenes can be undone until something else changes, and again when that is undone.
+  // Offers to undo the last replacement of the scenes. Undo works while the text is the one that replaced them.
   offerBack(text) {
-    this.revocable = { text: this.current.text, said: text };
+    this.revocable = { text: this.current.text };
     this.answer(text, false, () => this.revoke());
   }
 
