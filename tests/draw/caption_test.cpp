@@ -62,6 +62,13 @@ TEST_CASE("values are said in the units of the file") {
   CHECK(spring("5e-4 N*m/rad") == Lines{"500 µN·m/rad"});
 }
 
+// Beside any other stiffness of the file: infinity is no multiple of it.
+TEST_CASE("an infinite value is said as such beside finite ones in the same unit") {
+  const Lines lines = said("{ type = \"stop\", between = [\"a\", \"ground\"], upper = \"2 rad\", stiffness = \"inf\", restitution = 0.3 }",
+                           "[parameters]\nother = \"8 kN*m/rad\"\n");
+  CHECK(std::count(lines.begin(), lines.end(), "k = ∞") == 1);
+}
+
 TEST_CASE("a signal says where it begins, where that is not at 0") {
   CHECK(motion("{ sine = \"150 deg/s\", frequency = \"3 Hz\" }") == Lines{"sine 150 deg/s, 3 Hz"});
   CHECK(motion("{ sine = \"150 deg/s\", frequency = \"3 Hz\", phase = \"30 deg\", time = \"100 ms\" }") ==

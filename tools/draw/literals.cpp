@@ -64,7 +64,7 @@ void Typed::add(const std::optional<Literal>& literal) {
 std::optional<Typed::Said> Typed::say(double value, const std::string& unit) const {
   const auto parsed = parse_unit(unit);
   const Unit* const wanted = std::get_if<Unit>(&parsed);
-  if (!wanted || value == 0) return {};
+  if (!wanted || value == 0 || !std::isfinite(value)) return {};
   const Quantity* such = nullptr;
   bool all_in_one = true;
   for (const Quantity& each : quantities_) {
