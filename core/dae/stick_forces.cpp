@@ -46,6 +46,12 @@ std::vector<char> open_trains(const Network& network, const Structure& structure
   return open;
 }
 
+double largest(const std::vector<double>& forces) {
+  double result = 0;
+  for (const double force : forces) result = std::max(result, std::abs(force));
+  return result;
+}
+
 }  // namespace
 
 // The problem has the nodes that sticking sliders join. It leaves out the leading node of each cluster, as it does known nodes:
@@ -179,9 +185,61 @@ bool StickForces::lossy(const Shared& shared) const {
   return std::any_of(shared.sliders.begin(), shared.sliders.end(), [&](std::size_t k) { return network_.sliders[k].train >= 0; });
 }
 
-/// Forces within bounds that follow from the forces of the trains. The first ones are those without these bounds. `found`: the forces of
-/// the trains that sliders do not lock.
+/// Forces of least norm among all that the losses hold. What is lost to a side is the larger one of two lines over the force of the train, one
+/// for each node that may drive: with one line chosen for each loss and side the problem is convex, and the least norm of all choices
+/// is that of the whole. False if no choice holds the load, or there are too many. `found`: the forces of the trains that sliders do not lock.
+bool StickForces::meet_losses(Shared& shared, const std::vector<double>& found) const {
+  struct Lossy { std::size_t slider, train, place; };  // `place`: of the train's force
+  std::vector<Lossy> lossy;
+  for (std::size_t i = 0; i < shared.sliders.size(); ++i) {
+    if (network_.sliders[shared.sliders[i]].train < 0) continue;
+    const std::size_t train = at(network_.sliders[shared.sliders[i]].train);
+    const auto of = std::find(shared.trains.begin(), shared.trains.end(), train);
+    if (of != shared.trains.end()) {
+      lossy.push_back({i, train, shared.sliders.size() + static_cast<std::size_t>(of - shared.trains.begin())});
+    } else {
+      shared.bound(i, -inputs_.loss(train).lost(-1, found[train]), inputs_.loss(train).lost(1, found[train]));
+    }
+  }
+  if (lossy.empty()) return shared.solve();
+  if (2 * lossy.size() > static_cast<std::size_t>(numerics::loss_choices)) return false;
+  LeastNorm& problem = shared.with_trains;
+  std::vector<double> force;
+  std::vector<LeastNorm::Bound> contradiction;
+  double least = std::numeric_limits<double>::infinity();
+  for (unsigned choice = 0; choice < 1U << (2 * lossy.size()); ++choice) {
+    problem.following.clear();
+    for (std::size_t k = 0; k < lossy.size(); ++k) {
+      const auto& [slider, train, place] = lossy[k];
+      const Loss::Line up = inputs_.loss(train).line(1, (choice >> (2 * k) & 1) != 0), down = inputs_.loss(train).line(-1, (choice >> (2 * k + 1) & 1) != 0);
+      problem.low[slider] = std::min(down.offset, 0.0);
+      problem.high[slider] = std::max(up.offset, 0.0);
+      problem.following.push_back({slider, place, 1 - down.factor, up.factor - 1});
+    }
+    if (!problem.solve_within(shared.load, force, contradiction) || !contradiction.empty()) continue;
+    double norm = 0;
+    for (const double f : force) norm += f * f;
+    // A self-locking gear whose bearings help the load holds none of it: its lines do not meet in 0.
+    const bool holds = std::all_of(lossy.begin(), lossy.end(), [&](const Lossy& l) {
+      const int side = force[l.slider] < 0 ? -1 : 1;
+      return std::abs(force[l.slider]) <= inputs_.loss(l.train).lost(side, force[l.place]) + numerics::balance_roundoff * largest(force);
+    });
+    if (!holds || norm >= least) continue;
+    least = norm;
+    shared.force = force;
+  }
+  problem.following.clear();
+  if (std::isinf(least)) return false;
+  // Their bounds may be small beside the load, and met within its round-off.
+  for (const auto& [slider, train, place] : lossy) shared.bound(slider, -inputs_.loss(train).lost(-1, shared.force[place]), inputs_.loss(train).lost(1, shared.force[place]));
+  shared.meet_bounds(numerics::balance_roundoff * largest(shared.load));
+  return true;
+}
+
+/// Forces within bounds that follow from the forces of the trains. Where the load exceeds them, the forces of trains are tried until their
+/// bounds fit. `found`: the forces of the trains that sliders do not lock.
 bool StickForces::solve_with_losses(double t, Shared& shared, std::vector<double> found) const {
+  if (meet_losses(shared, found)) return true;
   const auto bounds = [&](const std::vector<double>* forces) {
     for (std::size_t i = 0; i < shared.sliders.size(); ++i) {
       const int train = network_.sliders[shared.sliders[i]].train;
@@ -197,8 +255,7 @@ bool StickForces::solve_with_losses(double t, Shared& shared, std::vector<double
   };
   bounds(nullptr);
   if (!solve()) return false;
-  double size = 0;
-  for (const double load : shared.load) size = std::max(size, std::abs(load));
+  const double size = largest(shared.load);
   // Absent if no trials agree.
   const auto follow = [&](TrainForceTrials trials) -> std::optional<bool> {
     while (!trials.endless()) {

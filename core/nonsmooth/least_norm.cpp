@@ -16,10 +16,12 @@ namespace {
 
 constexpr double none = std::numeric_limits<double>::infinity();
 
-/// A bound side x[force] >= -width, with width >= 0.
+/// A bound side x[force] + slope x[other] >= -width, with width >= 0.
 struct WideBound {
   Eigen::Index force = 0;
   double side = 0, width = 0;
+  Eigen::Index other = 0;
+  double slope = 0;
   double share = 1;  ///< in a contradiction
 };
 
@@ -27,6 +29,18 @@ struct WideBound {
 class DualActiveSet {
  public:
   DualActiveSet(const LeastNorm& problem, const Eigen::VectorXd& load, double share) : problem_(problem), share_(share) {
+    const std::size_t forces = problem.low.size();
+    for (std::size_t k = 0; k < forces; ++k) {
+      const auto force = static_cast<Eigen::Index>(k);
+      bounds_.push_back({force, 1, -(1 + share) * problem.low[k]});
+      bounds_.push_back({force, -1, (1 + share) * problem.high[k]});
+    }
+    for (const auto& [force, other, low_slope, high_slope] : problem.following) {
+      for (const std::size_t side : {0, 1}) {
+        bounds_[2 * force + side].other = static_cast<Eigen::Index>(other);
+        bounds_[2 * force + side].slope = side == 0 ? low_slope : high_slope;
+      }
+    }
     rows_.resize(problem.balance.cols(), 0);
     without_bounds_.setZero(problem.balance.cols());
     if (problem.balance.size() == 0) return;
@@ -54,7 +68,7 @@ class DualActiveSet {
         // The normal of the bound, less its projection on those of the equations and of the active bounds.
         const Eigen::MatrixXd normals = active_normals();
         const Eigen::VectorXd normal = normal_of(worst), share = normals.colPivHouseholderQr().solve(normal), step = normal - normals * share;
-        const bool moves = step.squaredNorm() > numerics::equal_values;
+        const bool moves = step.squaredNorm() > numerics::equal_values * normal.squaredNorm();
         const double full = moves ? -slack(worst, x) / step.dot(normal) : none;
         double partial = none;
         std::size_t blocking = 0;
@@ -66,6 +80,12 @@ class DualActiveSet {
           }
         }
         const double length = std::min(full, partial);
+        // Where bounds leave no room, as that of a force between 0 and a share of itself, they are met but for the round-off of the steps so far.
+        const double over = -slack(worst, x);
+        if (std::isinf(length) && over <= numerics::balance_roundoff * (1 + std::abs(worst.slope)) * x.lpNorm<Eigen::Infinity>()) {
+          bounds_[2 * static_cast<std::size_t>(worst.force) + (worst.side > 0 ? 0 : 1)].width += over;
+          break;
+        }
         if (std::isinf(length)) {
           cut = contradiction(worst, share, excess);
           return false;
@@ -76,7 +96,7 @@ class DualActiveSet {
         if (full <= partial) {
           active_.push_back(worst);
           multipliers_.push_back(multiplier);
-          x[worst.force] = -worst.side * worst.width;
+          x[worst.force] = -worst.side * (worst.width + worst.slope * x[worst.other]);
           break;
         }
         active_.erase(active_.begin() + static_cast<std::ptrdiff_t>(blocking));
@@ -87,19 +107,20 @@ class DualActiveSet {
   }
 
  private:
-  static double slack(const WideBound& b, const Eigen::VectorXd& x) { return b.side * x[b.force] + b.width; }
-  Eigen::VectorXd normal_of(const WideBound& b) const { return b.side * Eigen::VectorXd::Unit(rows_.rows(), b.force); }
+  static double slack(const WideBound& b, const Eigen::VectorXd& x) { return b.side * x[b.force] + b.slope * x[b.other] + b.width; }
+  Eigen::VectorXd normal_of(const WideBound& b) const {
+    Eigen::VectorXd normal = b.side * Eigen::VectorXd::Unit(rows_.rows(), b.force);
+    normal[b.other] += b.slope;
+    return normal;
+  }
 
   bool most_violated(const Eigen::VectorXd& x, WideBound& worst) const {
     double least = 0;
-    for (Eigen::Index k = 0; k < x.size(); ++k) {
-      for (const WideBound& b : {WideBound{k, 1, -(1 + share_) * problem_.low[static_cast<std::size_t>(k)]},
-                             WideBound{k, -1, (1 + share_) * problem_.high[static_cast<std::size_t>(k)]}}) {
-        const double over = slack(b, x) + numerics::equation_roundoff * b.width + roundoff_;
-        if (over >= least) continue;
-        least = over;
-        worst = b;
-      }
+    for (const WideBound& b : bounds_) {
+      const double over = slack(b, x) + numerics::equation_roundoff * b.width + (1 + std::abs(b.slope)) * roundoff_;
+      if (over >= least) continue;
+      least = over;
+      worst = b;
     }
     return least < 0;
   }
@@ -131,6 +152,7 @@ class DualActiveSet {
   Eigen::MatrixXd rows_;            ///< orthonormal combinations of the balances, one a column
   Eigen::VectorXd without_bounds_;  ///< forces of least norm
   double roundoff_ = 0;             ///< of forces: a bound of 0 cannot be met better
+  std::vector<WideBound> bounds_;   ///< the lower and the upper one of each force
   std::vector<WideBound> active_;
   std::vector<double> multipliers_;
 };
@@ -150,7 +172,7 @@ bool LeastNorm::solve_within(const std::vector<double>& load, std::vector<double
   double excess = 0;
   const bool within = DualActiveSet(*this, loads, 0).solve(x, cut, excess);
   contradiction.clear();
-  for (const auto& [place, side, width, share] : cut) contradiction.push_back({static_cast<std::size_t>(place), side > 0 ? -1 : 1, share});
+  for (const WideBound& b : cut) contradiction.push_back({static_cast<std::size_t>(b.force), b.side > 0 ? -1 : 1, b.share});
   force.assign(x.begin(), x.end());
   return within ? balances(*this, loads, x) : !cut.empty();
 }
@@ -161,7 +183,7 @@ bool LeastNorm::solve(const std::vector<double>& load, std::vector<double>& forc
   std::vector<Eigen::Index> open(low.size());
   std::iota(open.begin(), open.end(), 0);
   while (!open.empty()) {
-    LeastNorm rest{balance(Eigen::all, open), {}, {}};
+    LeastNorm rest{balance(Eigen::all, open), {}, {}, {}};
     for (const Eigen::Index k : open) {
       rest.low.push_back(low[static_cast<std::size_t>(k)]);
       rest.high.push_back(high[static_cast<std::size_t>(k)]);
@@ -196,9 +218,10 @@ bool LeastNorm::solve(const std::vector<double>& load, std::vector<double>& forc
       }
       break;
     }
-    for (const auto& [place, side, width, by] : worst) {
-      Eigen::Index& k = open[static_cast<std::size_t>(place)];
-      x[k] = (1 + share) * (side > 0 ? rest.low : rest.high)[static_cast<std::size_t>(place)];
+    for (const WideBound& b : worst) {
+      const auto place = static_cast<std::size_t>(b.force);
+      Eigen::Index& k = open[place];
+      x[k] = (1 + share) * (b.side > 0 ? rest.low : rest.high)[place];
       k = -1;
     }
     std::erase(open, -1);

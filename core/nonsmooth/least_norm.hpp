@@ -17,6 +17,12 @@ namespace rheonet {
 struct LeastNorm {
   Eigen::MatrixXd balance;        ///< B: a row a node, of full rank
   std::vector<double> low, high;  ///< of each force [N]; low <= 0 <= high
+  /// The bounds of `force` follow another force x: they are low - low_slope x and high + high_slope x.
+  struct Following {
+    std::size_t force, other;
+    double low_slope, high_slope;
+  };
+  std::vector<Following> following;  ///< `solve` does not know them
 
   /// `load`: of each row [N], finite. Writes the forces; false if round-off prevents an answer.
   bool solve(const std::vector<double>& load, std::vector<double>& force) const;

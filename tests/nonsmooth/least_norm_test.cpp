@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -133,6 +134,46 @@ void check_contradiction(const Problem& p, const Eigen::VectorXd& x, bool beyond
   CHECK(p.load.dot(velocity) > taken);
 }
 
+/// The same for bounds some of which follow other forces, by all sets of bounds that may be met exactly.
+std::optional<Eigen::VectorXd> by_all_sets(const Problem& p) {
+  constexpr double rounding = 1e-9;
+  std::vector<Eigen::VectorXd> normals;  // normal x >= -width
+  std::vector<double> widths;
+  for (Eigen::Index k = 0; k < p.forces(); ++k) {
+    for (const double side : {1.0, -1.0}) {
+      const double width = side > 0 ? -p.low(k) : p.high(k);
+      if (std::isinf(width)) continue;
+      Eigen::VectorXd normal = side * Eigen::VectorXd::Unit(p.forces(), k);
+      for (const auto& [force, other, low_slope, high_slope] : p.problem.following) {
+        if (static_cast<Eigen::Index>(force) == k) normal[static_cast<Eigen::Index>(other)] += side > 0 ? low_slope : high_slope;
+      }
+      normals.push_back(normal);
+      widths.push_back(width);
+    }
+  }
+  const Eigen::Index rows = p.problem.balance.rows();
+  for (unsigned set = 0; set < 1u << normals.size(); ++set) {
+    std::vector<std::size_t> met;
+    for (std::size_t k = 0; k < normals.size(); ++k) {
+      if (set >> k & 1u) met.push_back(k);
+    }
+    Eigen::MatrixXd all(rows + static_cast<Eigen::Index>(met.size()), p.forces());
+    Eigen::VectorXd right(all.rows());
+    all.topRows(rows) = p.problem.balance;
+    right.head(rows) = p.load;
+    for (std::size_t k = 0; k < met.size(); ++k) {
+      all.row(rows + static_cast<Eigen::Index>(k)) = normals[met[k]].transpose();
+      right[rows + static_cast<Eigen::Index>(k)] = -widths[met[k]];
+    }
+    if (all.rows() > p.forces() || all.fullPivLu().rank() < all.rows()) continue;
+    const Eigen::VectorXd multipliers = (all * all.transpose()).fullPivLu().solve(right), x = all.transpose() * multipliers;
+    bool optimal = (multipliers.tail(static_cast<Eigen::Index>(met.size())).array() >= -rounding).all();
+    for (std::size_t k = 0; k < normals.size(); ++k) optimal = optimal && normals[k].dot(x) >= -widths[k] - rounding;
+    if (optimal) return x;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 TEST_CASE("least norm: random balances, beside the answer among all guesses and the largest share of the load") {
@@ -202,4 +243,32 @@ TEST_CASE("least norm: bounds that do not contradict each other hold beside thos
   REQUIRE(problem.solve({3, 3}, force));
   const std::vector<double> expected{1.5, 1.5, 1, 2};
   for (std::size_t k = 0; k < 4; ++k) CHECK(force[k] == doctest::Approx(expected[k]).epsilon(1e-14));
+}
+
+TEST_CASE("least norm: bounds that follow other forces, beside the answer among all sets of bounds") {
+  int within = 0, beyond = 0;
+  std::mt19937 random(11);
+  for (int n = 0; n < 2000; ++n) {
+    CAPTURE(n);
+    Problem p = random_problem(random, n % 2 == 0);
+    // As a loss follows the force of its train: the last force has no bounds of its own in every second problem.
+    const auto other = static_cast<std::size_t>(p.forces() - 1), count = std::min<std::size_t>(2, other);
+    for (std::size_t k = 0; k < count; ++k) {
+      p.problem.following.push_back({k, other, std::uniform_real_distribution(-1.5, 0.5)(random), std::uniform_real_distribution(-0.5, 3.0)(random)});
+      if (random() % 2 == 0) p.problem.low[k] = p.problem.high[k] = 0;
+    }
+    if (n % 3 == 0) p.load = 0.3 * p.load;
+    std::vector<double> force;
+    std::vector<LeastNorm::Bound> bounds;
+    REQUIRE(p.problem.solve_within({p.load.begin(), p.load.end()}, force, bounds));
+    const auto expected = by_all_sets(p);
+    Problem larger = p;
+    larger.load *= 1 + 1e-6;
+    if (expected && !by_all_sets(larger)) continue;  // at the limit, which round-off decides
+    REQUIRE(expected.has_value() == bounds.empty());
+    ++(expected ? within : beyond);
+    if (expected) CHECK((Eigen::Map<const Eigen::VectorXd>(force.data(), p.forces()) - *expected).norm() < 1e-8);
+  }
+  CHECK(within > 500);
+  CHECK(beyond > 300);
 }

@@ -7,10 +7,6 @@ namespace rheonet::test {
 
 using Type = ReferenceLaw::Type;
 
-namespace {
-constexpr double rounding = 4e-16;
-}
-
 bool ReferenceBundle::steep() const {
   return std::any_of(members_.begin(), members_.end(), [](const Member& m) { return m.law.steep(); });
 }
@@ -81,7 +77,7 @@ ReferenceBundle::Point ReferenceBundle::with_spring(double total, double K, doub
   for (int iteration = 0; iteration < 200; ++iteration) {
     const Point p = at(step, h);
     const double excess = p.force + K * step - y;
-    if (std::abs(excess) <= rounding * (std::abs(y) + std::abs(p.force))) break;
+    if (std::abs(excess) <= ReferenceLaw::rounding * (std::abs(y) + std::abs(p.force))) break;
     if ((excess > 0) == (far > 0)) {
       far = step;
     } else {

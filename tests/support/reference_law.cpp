@@ -11,8 +11,6 @@ namespace {
 
 constexpr std::array<const char*, 8> type_names = {"spring", "dashpot", "slider", "sfm", "vfm", "cfm", "freewheel", "stop"};
 
-constexpr double rounding = 4e-16;
-
 double sign_of(double x) { return x < 0 ? -1 : 1; }
 
 }  // namespace

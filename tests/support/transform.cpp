@@ -14,10 +14,10 @@ namespace rheonet::test {
 
 namespace {
 
-const Declaration& declared(const SceneElement& element) { return *declarations()[at(element.declaration)]; }
+const Declaration& declaration_of(const SceneElement& element) { return *declarations()[at(element.declaration)]; }
 
 const Parameter& parameter_of(const SceneElement& element, std::size_t signal) {
-  return declared(element).parameters[at(element.signal_parameters[signal])];
+  return declaration_of(element).parameters[at(element.signal_parameters[signal])];
 }
 
 /// Calls `change(quantity, signal)`.
@@ -66,7 +66,7 @@ void require_no_ground(const Scene& scene) {
 }
 
 void negate_oriented(SceneElement& element) {
-  const std::vector<Parameter>& parameters = declared(element).parameters;
+  const std::vector<Parameter>& parameters = declaration_of(element).parameters;
   for (std::size_t k = 0; k < parameters.size(); ++k) {
     if (oriented(parameters[k])) element.values.own()[k] = -element.values[k];
   }
@@ -216,13 +216,13 @@ Scene rescaled(Scene scene, const Scaling& scaling) {
     n.velocity *= scaling.of(Quantity::velocity, scene.domain);
   }
   for (SceneElement& e : scene.elements) {
-    const Declaration& d = declared(e);
+    const Declaration& d = declaration_of(e);
     const std::vector<double> before = e.values;
     for (std::size_t k = 0; k < d.parameters.size(); ++k) {
       e.values.own()[k] *= scaling.of(quantity_of(d, e, k), scene.domain, flow_index(d, d.parameters[k], before));
     }
     for (std::size_t k = 0; k < e.signals.size(); ++k) {
-      e.signals.own()[k] = transformed(e.signals[k], scaling.of(quantity_of(declared(e), e, at(e.signal_parameters[k])), scene.domain), scaling.time);
+      e.signals.own()[k] = transformed(e.signals[k], scaling.of(quantity_of(declaration_of(e), e, at(e.signal_parameters[k])), scene.domain), scaling.time);
     }
   }
   scene.start *= scaling.time;

@@ -12,8 +12,6 @@ namespace {
 
 // Allowed multiple of the reference's estimated error, which is the change of the extrapolated value by the last halving of the step.
 constexpr double of_error = 3;
-// Allowed multiple of the accuracy; the simulator promises 1.
-constexpr double of_accuracy = 20;
 // Values whose doubt exceeds this fraction of the record's scale are not judged.
 constexpr double largest_doubt = 1e-3;
 // A sticking element moves in the reference in proportion to the imbalance of its force, relative to the largest value of its kind. A

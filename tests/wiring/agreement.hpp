@@ -8,6 +8,9 @@
 
 namespace rheonet::test {
 
+/// Allowed deviation as a multiple of the accuracy; the simulator promises 1 for each run.
+constexpr double of_accuracy = 20;
+
 /// Agreement between the rows of a run and those of the reference. A value of the reference is judged only if its error estimate is small
 /// relative to the scale of its record.
 struct Agreement {

@@ -12,6 +12,7 @@
 #include "tests/support/reference_integrator.hpp"
 #include "tests/support/simulate.hpp"
 #include "tests/support/slider_bounds.hpp"
+#include "tests/wiring/agreement.hpp"
 #include "tests/wiring/refusals.hpp"
 #include "tests/wiring/seen_differently.hpp"
 
@@ -19,13 +20,13 @@ namespace rheonet::test {
 
 namespace {
 
-// Tolerances as multiples of the accuracy. The simulator promises that each run is within 1 of the exact solution.
-constexpr double of_energy = 10, of_accuracy = 20;
+// Tolerance of the energy as a multiple of the accuracy.
+constexpr double of_energy = 10;
 constexpr double slip_rounding = 1e-12;
 // Allowed difference between the ends of two refused runs, as a fraction of the run's length.
-constexpr double same_end = 1e-4;
-// A record below the fraction `nothing` of the largest of its kind is 0 except for round-off. `least`: smallest scale [m | m/s | N].
-constexpr double nothing = 1e-6, least = 1e-3;
+constexpr double same_end_of_views = 1e-4;
+// A record below the fraction `negligible` of the largest of its kind is 0 except for round-off. `least_scale`: smallest scale [m | m/s | N].
+constexpr double negligible = 1e-6, least_scale = 1e-3;
 // Records below the fraction `little` of the largest of their kind come from tiny motions, such as a slip of nanometres at the peak of a
 // force, which depend on the last digits of the accuracy. A run with an accuracy tighter by the factor `finer` judges these.
 constexpr double little = 1e-4, finer = 1e-3;
@@ -105,12 +106,12 @@ Difference difference(const View& view, const RunTable& original, const RunTable
   std::map<std::string, double> largest;
   for (const View::Column& column : view.columns) {
     double& kind = largest[channel_of(column.original)];
-    kind = std::max({kind, original.scale(column.original), least});
+    kind = std::max({kind, original.scale(column.original), least_scale});
   }
   for (const View::Column& column : view.columns) {
     const std::vector<double>&from = original[column.original], &to = seen[column.path];
     const std::size_t count = std::min(from.size(), to.size());
-    double scale = nothing * largest[channel_of(column.original)];
+    double scale = negligible * largest[channel_of(column.original)];
     // The scale of the quantity in this view: a moving frame adds to it.
     for (double x : to) scale = std::max(scale, std::abs(x / column.factor));
     for (std::size_t i = 0; i < count; ++i) {
@@ -144,7 +145,7 @@ std::string wrong_end(const View& view, const Scene& scene, const std::string& r
   if (refusal.empty()) return "";
   const double t = time_in(refusal), u = time_in(seen) / view.time;
   const bool same = std::isnan(t) || std::isnan(u) ? std::isnan(t) == std::isnan(u)
-                                                   : std::abs(t - u) <= same_end * (scene.stop - scene.start);
+                                                   : std::abs(t - u) <= same_end_of_views * (scene.stop - scene.start);
   return same ? "" : fmt::format("refused otherwise: {}, but {}", refusal, seen);
 }
 

@@ -11,7 +11,8 @@ namespace rheonet::test {
 
 namespace {
 
-constexpr std::uint64_t seed = 0x9e3779b97f4a7c15;
+// 2^64 by the golden ratio: seeds of neighbouring numbers are far apart.
+constexpr std::uint64_t golden_ratio = 0x9e3779b97f4a7c15;
 constexpr int intervals = 60;
 
 template <std::size_t n>
@@ -126,7 +127,7 @@ std::string brake(Random& random, double stop) {
 std::string netlist_of(const Wiring& wiring) { return netlist_of(wiring, wiring.graph); }
 
 std::string netlist_of(const Wiring& wiring, const Graph& graph) {
-  Random random(seed * static_cast<std::uint64_t>(wiring.number + 1));
+  Random random(golden_ratio * static_cast<std::uint64_t>(wiring.number + 1));
   const double stop = random.uniform(0.8, 1.2);
   std::string text = fmt::format("title = \"wiring {}: {}\"\n\n[elements]\n", wiring.number, wiring.name);
   const bool by_force = wiring.drive == Wiring::Drive::force || wiring.drive == Wiring::Drive::force_on_mass;

@@ -9,13 +9,12 @@
 #include "core/network/component.hpp"
 #include "tests/support/least_norm.hpp"
 #include "tests/support/slider_bounds.hpp"
+#include "tests/wiring/agreement.hpp"
 
 namespace rheonet::test {
 
 namespace {
 
-// Tolerance as a multiple of the accuracy. The simulator promises that each force at a node is within 1 of the exact force.
-constexpr double of_accuracy = 20;
 // Round-off of the potentials of a few nodes, as a share of the largest force.
 constexpr double potential_rounding = 1e-11;
 
