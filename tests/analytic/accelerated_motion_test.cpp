@@ -12,7 +12,7 @@
 #include "tests/support/response.hpp"
 #include "tests/support/simulate.hpp"
 
-using namespace rheonet::test;
+namespace rheonet::test::accelerated_motion_test {
 
 namespace {
 
@@ -126,3 +126,5 @@ friction = {{ type = "slider", between = ["top", "base"], coulomb = {} }}
 )", a, m, Fc), stop) + record(expected), expected);
   }
 }
+
+}  // namespace rheonet::test::accelerated_motion_test

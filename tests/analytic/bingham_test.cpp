@@ -10,7 +10,7 @@
 #include "tests/analytic/slider_checks.hpp"
 #include "tests/support/contract_scene.hpp"
 
-using namespace rheonet::test;
+namespace rheonet::test::bingham_test {
 
 namespace {
 
@@ -221,3 +221,5 @@ TEST_CASE("Bingham's body in three forms is the same, to and fro") {
     }
   }
 }
+
+}  // namespace rheonet::test::bingham_test

@@ -10,7 +10,7 @@
 #include "tests/support/check.hpp"
 #include "tests/support/simulate.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::blocks_test {
 
 namespace {
 
@@ -290,4 +290,4 @@ TEST_CASE("blocks that start steady: a lag at its end, a delay of what has alway
   CHECK(run["d.out"].back() < 5.9);
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::blocks_test

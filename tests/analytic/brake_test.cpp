@@ -11,8 +11,7 @@
 
 #include "tests/analytic/slider_checks.hpp"
 
-using namespace rheonet;
-using namespace rheonet::test;
+namespace rheonet::test::brake_test {
 
 namespace {
 
@@ -397,3 +396,5 @@ TEST_CASE("brake: without dry friction it has no force") {
     CHECK_EQ(simulate(toml).scale("brake.force"), 0);
   }
 }
+
+}  // namespace rheonet::test::brake_test

@@ -7,7 +7,7 @@
 #include "tests/analytic/drives.hpp"
 #include "tests/support/check.hpp"
 
-using namespace rheonet::test;
+namespace rheonet::test::burgers_test {
 
 namespace {
 
@@ -88,3 +88,5 @@ TEST_CASE("Burgers, loaded") {
                             });
   }
 }
+
+}  // namespace rheonet::test::burgers_test

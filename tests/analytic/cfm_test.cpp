@@ -9,7 +9,7 @@
 
 #include "tests/support/check.hpp"
 
-using namespace rheonet::test;
+namespace rheonet::test::cfm_test {
 
 namespace {
 
@@ -122,3 +122,5 @@ TEST_CASE("cfm through reversals") {
 TEST_CASE("cfm slowed down from above Fc/B") {
   for (const double exponent : {0.0, 1.0, 1.5, 2.0, 3.0}) check_legs({fast, slow, fast, 0.6 * slow}, exponent);
 }
+
+}  // namespace rheonet::test::cfm_test

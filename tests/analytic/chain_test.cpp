@@ -8,7 +8,7 @@
 
 #include "tests/support/check.hpp"
 
-using namespace rheonet::test;
+namespace rheonet::test::chain_test {
 
 namespace {
 
@@ -123,3 +123,5 @@ end = { velocity = -1.31 }
   }
   check_at_all_accuracies(netlist({{"m", m}, {"k", k}}, tables, stop) + record(expected), expected);
 }
+
+}  // namespace rheonet::test::chain_test

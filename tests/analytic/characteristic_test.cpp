@@ -10,8 +10,7 @@
 
 #include "tests/analytic/slider_checks.hpp"
 
-using namespace rheonet;
-using namespace rheonet::test;
+namespace rheonet::test::characteristic_test {
 
 namespace {
 
@@ -253,3 +252,5 @@ TEST_CASE("characteristic: mistakes are refused") {
   says("type = \"spring\", force = \"d\"", "force");
   says("type = \"spring\", force = \"1\"", "does not depend on `d`");
 }
+
+}  // namespace rheonet::test::characteristic_test

@@ -8,7 +8,7 @@
 #include "tests/analytic/random_tree.hpp"
 #include "tests/support/check.hpp"
 
-using namespace rheonet::test;
+namespace rheonet::test::composition_test {
 
 namespace {
 
@@ -112,3 +112,5 @@ series = [
     compare(rows["tree.force"], rows[name], other_order, name);
   }
 }
+
+}  // namespace rheonet::test::composition_test

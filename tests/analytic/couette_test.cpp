@@ -9,7 +9,7 @@
 
 #include "tests/support/check.hpp"
 
-using namespace rheonet::test;
+namespace rheonet::test::couette_test {
 
 namespace {
 
@@ -144,3 +144,5 @@ TEST_CASE("Couette ladder: its first time constant comes to (h/pi)^2/nu with 1/N
     last = error;
   }
 }
+
+}  // namespace rheonet::test::couette_test

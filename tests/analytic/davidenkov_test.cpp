@@ -11,7 +11,7 @@
 #include "tests/support/random.hpp"
 #include "tests/support/scene_builder.hpp"
 
-using namespace rheonet::test;
+namespace rheonet::test::davidenkov_test {
 
 namespace {
 
@@ -249,3 +249,5 @@ TEST_CASE("davidenkov: the heat of a loop, and nothing stored by a whole number 
   CHECK(dissipated[1] - dissipated[0] == doctest::Approx(3 * per_loop).epsilon(1e-5));
   CHECK(std::abs(stored[1] - stored[0]) < 1e-5 * per_loop);
 }
+
+}  // namespace rheonet::test::davidenkov_test

@@ -11,7 +11,7 @@
 #include "tests/support/response.hpp"
 #include "tests/support/scene_builder.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::delay_test {
 
 namespace {
 
@@ -275,4 +275,4 @@ TEST_CASE("a delayed spring or dashpot there is none: refused with its place") {
   }
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::delay_test

@@ -11,7 +11,7 @@
 #include "tests/support/check.hpp"
 #include "tests/support/response.hpp"
 
-using namespace rheonet::test;
+namespace rheonet::test::elastoplastic_test {
 
 namespace {
 
@@ -94,3 +94,5 @@ frame   = { type = "sfm", between = ["floor", "ground"], stiffness = "sigma", co
           {"damper.force", at([](const Phase& phase, double t) { return c * phase.position.derivative()(t); })},
       });
 }
+
+}  // namespace rheonet::test::elastoplastic_test

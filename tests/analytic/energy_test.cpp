@@ -10,8 +10,7 @@
 #include "core/result/run.hpp"
 #include "tests/support/check.hpp"
 
-using namespace rheonet;
-using namespace rheonet::test;
+namespace rheonet::test::energy_test {
 
 namespace {
 
@@ -160,3 +159,5 @@ series = [
                       "drag = { type = \"dashpot\", between = [\"end\", \"ground\"], damping = 7.3, "
                       "flow_index = 2 }\n"));
 }
+
+}  // namespace rheonet::test::energy_test

@@ -8,7 +8,7 @@
 
 #include "tests/support/check.hpp"
 
-using namespace rheonet::test;
+namespace rheonet::test::equal_sliders_between_masses_test {
 
 namespace {
 
@@ -83,3 +83,5 @@ f2 = { type = "force", between = ["mid", "b"], force = { step = "F", time = "on"
     }
   }
 }
+
+}  // namespace rheonet::test::equal_sliders_between_masses_test

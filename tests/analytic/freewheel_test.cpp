@@ -11,8 +11,7 @@
 #include "tests/analytic/slider_checks.hpp"
 #include "tests/support/random.hpp"
 
-using namespace rheonet;
-using namespace rheonet::test;
+namespace rheonet::test::freewheel_test {
 
 namespace {
 
@@ -398,3 +397,5 @@ TEST_CASE("freewheel: a motion that it forbids is refused when it begins") {
   CHECK(moved("-0.3", forwards).find("at t = 0 s `free` forbids the motion of node") != std::string::npos);
   CHECK_EQ(moved("-0.3", backwards), "");
 }
+
+}  // namespace rheonet::test::freewheel_test

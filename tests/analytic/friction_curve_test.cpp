@@ -11,8 +11,7 @@
 #include "core/netlist/speed_curve.hpp"
 #include "tests/analytic/slider_checks.hpp"
 
-using namespace rheonet;
-using namespace rheonet::test;
+namespace rheonet::test::friction_curve_test {
 
 namespace {
 
@@ -204,3 +203,5 @@ TEST_CASE("friction curves: mistakes and limits") {
   CHECK_EQ(simulate(netlist({{"w", 0.4}}, "[nodes]\nx = { velocity = 1 }\n[elements]\nm = { type = \"mass\", at = \"x\", mass = 1 }\ns = { type = \"slider\", between = [\"x\", \"ground\"], coulomb = \"2*w\" }\n", 1) +
                     "record = [\"s.force\"]\n", 1e-6)["s.force"].front(), 0.8);
 }
+
+}  // namespace rheonet::test::friction_curve_test

@@ -10,7 +10,7 @@
 #include "tests/support/check.hpp"
 #include "tests/support/simulate.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::function_blocks_test {
 
 namespace {
 
@@ -269,4 +269,4 @@ record = ["a.velocity", "heat1.out", "heat2.out", "heat3.out", "heat4.out", {{ n
   }
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::function_blocks_test

@@ -7,8 +7,7 @@
 #include "core/result/explain.hpp"
 #include "tests/support/simulate.hpp"
 
-using namespace rheonet;
-using namespace rheonet::test;
+namespace rheonet::test::gear_report_test {
 
 TEST_CASE("gears: a certified run balances the forces at massless nodes on both sides of a transmission") {
   const Scene scene = scene_of(R"~(
@@ -61,3 +60,5 @@ stop = 1
     if (unknowns.quantity == "velocity") CHECK(unknowns.unit == "rad/s");
   }
 }
+
+}  // namespace rheonet::test::gear_report_test

@@ -8,8 +8,7 @@
 
 #include "tests/support/simulate.hpp"
 
-using namespace rheonet;
-using namespace rheonet::test;
+namespace rheonet::test::gear_test {
 
 namespace {
 
@@ -328,3 +327,5 @@ c = {{ velocity = 1 }}
   const RunTable backwards = simulate(text("5"));
   CHECK(backwards["c.velocity"].front() == doctest::Approx(5 / i));
 }
+
+}  // namespace rheonet::test::gear_test

@@ -8,7 +8,7 @@
 #include "tests/support/check.hpp"
 #include "tests/support/response.hpp"
 
-using namespace rheonet::test;
+namespace rheonet::test::inerter_test {
 
 namespace {
 
@@ -179,3 +179,5 @@ outer = {{ type = "inerter", between = ["end", "one"], inertance = "b" }}
 m1    = {{ type = "mass", at = "one", mass = "m" }}
 )", f), 3.1) + record(expected), expected);
 }
+
+}  // namespace rheonet::test::inerter_test

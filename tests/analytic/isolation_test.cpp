@@ -10,8 +10,7 @@
 #include "tests/support/check.hpp"
 #include "tests/support/simulate.hpp"
 
-using namespace rheonet;
-using namespace rheonet::test;
+namespace rheonet::test::isolation_test {
 
 TEST_CASE("isolation: the position of a mass on a soft spring under a base that shakes") {
   const double m = 0.0115, c = 2.6, X = 0.07, w = 2 * std::numbers::pi * 2.5;
@@ -40,3 +39,5 @@ record = ["body.position"]
     }
   }
 }
+
+}  // namespace rheonet::test::isolation_test

@@ -13,7 +13,7 @@
 #include "tests/support/iwan_oscillator.hpp"
 #include "tests/support/scene_file.hpp"
 
-using namespace rheonet::test;
+namespace rheonet::test::iwan_test {
 
 namespace {
 
@@ -228,3 +228,5 @@ TEST_CASE("Iwan bundle: forces at the start, given or from where the nodes start
     }
   }
 }
+
+}  // namespace rheonet::test::iwan_test

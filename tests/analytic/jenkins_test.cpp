@@ -11,7 +11,7 @@
 #include "tests/analytic/slider_checks.hpp"
 #include "tests/analytic/sliding_motion.hpp"
 
-using namespace rheonet::test;
+namespace rheonet::test::jenkins_test {
 
 namespace {
 
@@ -268,3 +268,5 @@ TEST_CASE("Slider - spring - slider without mass: of two equal ones each slips h
     CHECK_EQ(notes_naming(without, {"s1", "s2"}), 0);
   }
 }
+
+}  // namespace rheonet::test::jenkins_test

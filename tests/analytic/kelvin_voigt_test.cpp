@@ -7,7 +7,7 @@
 #include "tests/analytic/drives.hpp"
 #include "tests/support/check.hpp"
 
-using namespace rheonet::test;
+namespace rheonet::test::kelvin_voigt_test {
 
 namespace {
 
@@ -85,3 +85,5 @@ TEST_CASE("Kelvin-Voigt, stretched suddenly: the forces after the impulse") {
     }
   }
 }
+
+}  // namespace rheonet::test::kelvin_voigt_test

@@ -13,7 +13,7 @@
 #include "tests/support/check.hpp"
 #include "tests/support/program.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::large_scenes_test {
 
 namespace {
 
@@ -148,4 +148,4 @@ record = ["chain.force"]
   CHECK(cpu_time() - begin < 30);
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::large_scenes_test

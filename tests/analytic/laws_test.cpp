@@ -9,8 +9,7 @@
 
 #include "tests/analytic/slider_checks.hpp"
 
-using namespace rheonet;
-using namespace rheonet::test;
+namespace rheonet::test::laws_test {
 
 namespace {
 
@@ -333,3 +332,5 @@ record = ["l.force", "l.E.out"]
     CHECK(std::abs(run.rows["l.E.out"][row] - 1.3 * (t + 0.7 * std::expm1(-t / 0.7))) < 1e-8);
   }
 }
+
+}  // namespace rheonet::test::laws_test

@@ -12,7 +12,7 @@
 #include "tests/support/response.hpp"
 #include "tests/support/solid_friction.hpp"
 
-using namespace rheonet::test;
+namespace rheonet::test::limits_test {
 
 namespace {
 
@@ -148,3 +148,5 @@ TEST_CASE("cfm on its way to Coulomb's law") {
   }
   CHECK_GT(rows, 180);
 }
+
+}  // namespace rheonet::test::limits_test

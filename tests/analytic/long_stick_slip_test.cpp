@@ -7,7 +7,7 @@
 
 #include "tests/support/check.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::long_stick_slip_test {
 
 namespace {
 
@@ -70,4 +70,4 @@ TEST_CASE("Stick-slip: after thousands of slips each is at its time") {
   }
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::long_stick_slip_test

@@ -13,7 +13,7 @@
 #include "tests/support/program.hpp"
 #include "tests/support/simulate.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::lookup_blocks_test {
 
 namespace {
 
@@ -83,4 +83,4 @@ TEST_CASE("a lookup from a CSV file with units, columns and a smooth curve: a da
   }
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::lookup_blocks_test

@@ -11,8 +11,7 @@
 
 #include "tests/support/simulate.hpp"
 
-using namespace rheonet;
-using namespace rheonet::test;
+namespace rheonet::test::loss_beside_damping_test {
 
 namespace {
 
@@ -91,3 +90,5 @@ record = ["a.position"]
     }
   }
 }
+
+}  // namespace rheonet::test::loss_beside_damping_test

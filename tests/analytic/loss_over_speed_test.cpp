@@ -13,8 +13,7 @@
 #include "tests/analytic/geared_drive.hpp"
 #include "tests/support/simulate.hpp"
 
-using namespace rheonet;
-using namespace rheonet::test;
+namespace rheonet::test::loss_over_speed_test {
 
 namespace {
 
@@ -107,3 +106,5 @@ TEST_CASE("losses: the node of a gear without a mass may have forces that depend
     CHECK(largest_error(simulate(scene(between, "")), simulate(scene(between, "J3 = { type = \"inertia\", at = \"teeth\", inertia = 1e-9 }\n"))) < 1e-6);
   }
 }
+
+}  // namespace rheonet::test::loss_over_speed_test

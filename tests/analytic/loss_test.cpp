@@ -14,8 +14,7 @@
 #include "tests/analytic/geared_drive.hpp"
 #include "tests/support/simulate.hpp"
 
-using namespace rheonet;
-using namespace rheonet::test;
+namespace rheonet::test::loss_test {
 
 TEST_CASE("losses: the side that drives loses its share of power") {
   const double J1 = 0.7, J2 = 1.9, i = 3, forwards = 0.8, backwards = 0.6;
@@ -307,3 +306,5 @@ record = ["a.velocity", "a.acceleration", "g.force"]
   }
   for (const int count : seen) CHECK(count > 20);
 }
+
+}  // namespace rheonet::test::loss_test

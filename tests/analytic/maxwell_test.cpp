@@ -4,7 +4,7 @@
 #include "tests/analytic/drives.hpp"
 #include "tests/support/check.hpp"
 
-using namespace rheonet::test;
+namespace rheonet::test::maxwell_test {
 
 namespace {
 
@@ -71,3 +71,5 @@ TEST_CASE("Maxwell, loaded") {
                             });
   }
 }
+
+}  // namespace rheonet::test::maxwell_test

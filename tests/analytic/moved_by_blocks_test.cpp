@@ -9,7 +9,7 @@
 #include "tests/support/check.hpp"
 #include "tests/support/simulate.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::moved_by_blocks_test {
 
 namespace {
 
@@ -259,4 +259,4 @@ stop = 1
   says(refusal("[elements]\n" + state + x + "[simulate]\nstop = 1\nstart_from = \"steady\"\n"), "a start from rest or in steady motion is not known then");
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::moved_by_blocks_test

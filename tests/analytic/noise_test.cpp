@@ -8,7 +8,7 @@
 #include "core/netlist/noise.hpp"
 #include "tests/support/check.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::noise_test {
 
 namespace {
 
@@ -37,4 +37,4 @@ TEST_CASE("a mass under noise: the velocity is the integral of its values") {
   }
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::noise_test

@@ -8,7 +8,7 @@
 #include "tests/support/check.hpp"
 #include "tests/support/simulate.hpp"
 
-using namespace rheonet::test;
+namespace rheonet::test::oscillator_test {
 
 namespace {
 
@@ -105,3 +105,5 @@ k = {{ type = "spring", between = ["a", "ground"], stiffness = {} }}
     }
   }
 }
+
+}  // namespace rheonet::test::oscillator_test

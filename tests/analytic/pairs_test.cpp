@@ -11,7 +11,7 @@
 #include "tests/support/scene_builder.hpp"
 #include "tests/support/simulate.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::pairs_test {
 
 namespace {
 
@@ -201,4 +201,4 @@ TEST_CASE("pairs in a steady state or at rest at the start are what springs and 
   }
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::pairs_test

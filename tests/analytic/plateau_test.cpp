@@ -10,8 +10,7 @@
 
 #include "tests/support/simulate.hpp"
 
-using namespace rheonet;
-using namespace rheonet::test;
+namespace rheonet::test::plateau_test {
 
 namespace {
 
@@ -97,3 +96,5 @@ TEST_CASE("plateaus: a comparison at a bound that another block arrives at") {
     }
   }
 }
+
+}  // namespace rheonet::test::plateau_test

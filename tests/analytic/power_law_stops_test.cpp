@@ -7,7 +7,7 @@
 #include "tests/support/check.hpp"
 #include "tests/support/scene_builder.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::power_law_stops_test {
 
 namespace {
 
@@ -83,4 +83,4 @@ TEST_CASE("pseudoplastic dashpots in series bring a mass to rest") {
   }
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::power_law_stops_test

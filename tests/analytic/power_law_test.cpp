@@ -8,7 +8,7 @@
 
 #include "tests/support/check.hpp"
 
-using namespace rheonet::test;
+namespace rheonet::test::power_law_test {
 
 namespace {
 
@@ -196,3 +196,5 @@ TEST_CASE("A mass on a power-law dashpot is turned back by a constant force") {
     }
   }
 }
+
+}  // namespace rheonet::test::power_law_test

@@ -10,7 +10,7 @@
 #include "tests/support/check.hpp"
 #include "tests/support/scene_builder.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::power_laws_at_rest_test {
 
 namespace {
 
@@ -61,4 +61,4 @@ TEST_CASE("power laws in series behind a velocity that begins with 0") {
   }
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::power_laws_at_rest_test

@@ -5,8 +5,7 @@
 
 #include "tests/analytic/slider_checks.hpp"
 
-using namespace rheonet;
-using namespace rheonet::test;
+namespace rheonet::test::pressed_brake_test {
 
 // The force of a spring presses the brake, and falls through 0 while the brake holds. It lets go there, once, and slips.
 TEST_CASE("brake: pressed by the force of a spring that swings, between a mass and a vibrator") {
@@ -48,3 +47,5 @@ record = ["n0.position", "n1.position"]
 )";
   check_against_closer(toml, 1e-8, {"n0.position", "n1.position"});
 }
+
+}  // namespace rheonet::test::pressed_brake_test

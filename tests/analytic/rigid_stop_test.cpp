@@ -10,8 +10,7 @@
 
 #include "tests/analytic/slider_checks.hpp"
 
-using namespace rheonet;
-using namespace rheonet::test;
+namespace rheonet::test::rigid_stop_test {
 
 namespace {
 
@@ -439,3 +438,5 @@ TEST_CASE("rigid stop: mistakes are refused") {
                                                         "a force beyond any bound; give the step a time to rise in");
   CHECK_EQ(driven("position = { step = 0.5, time = 0.3 }"), "");
 }
+
+}  // namespace rheonet::test::rigid_stop_test

@@ -8,7 +8,7 @@
 
 #include "tests/support/check.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::sample_test {
 
 namespace {
 
@@ -120,4 +120,4 @@ TEST_CASE("samples are events, and start from a steady state") {
   for (const double l : run.rows["l.out"]) CHECK(l == doctest::Approx(4));  // 1.5 quanta are rounded away from 0
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::sample_test

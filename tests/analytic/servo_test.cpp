@@ -10,7 +10,7 @@
 #include "tests/support/check.hpp"
 #include "tests/support/simulate.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::servo_test {
 
 namespace {
 
@@ -204,4 +204,4 @@ TEST_CASE("a start in steady motion is refused where blocks have none, or look a
   CHECK(why("u = { type = \"generator\", signal = 2 }\ng = { type = \"lag\", in = \"u\", time_constant = 1 }\nr = { type = \"gain\", in = \"x.velocity\", gain = 1 }") == "");
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::servo_test

@@ -10,7 +10,7 @@
 #include "tests/support/check.hpp"
 #include "tests/support/solid_friction.hpp"
 
-using namespace rheonet::test;
+namespace rheonet::test::sfm_test {
 
 namespace {
 
@@ -226,3 +226,5 @@ series = [ { name = "spring", type = "spring", stiffness = "k" },
     }
   }
 }
+
+}  // namespace rheonet::test::sfm_test

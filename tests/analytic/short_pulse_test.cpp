@@ -7,7 +7,7 @@
 
 #include "tests/support/check.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::short_pulse_test {
 
 namespace {
 
@@ -57,4 +57,4 @@ record = ["x.velocity"]
 )", 0.8);
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::short_pulse_test

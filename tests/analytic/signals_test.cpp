@@ -9,7 +9,7 @@
 
 #include "tests/support/check.hpp"
 
-using namespace rheonet::test;
+namespace rheonet::test::signals_test {
 
 namespace {
 
@@ -246,3 +246,5 @@ output = { every = 0.01 }
   CHECK_EQ(rows["dashpot.force"][4], doctest::Approx(B * -0.219).epsilon(1e-5));
   CHECK_EQ(rows["dashpot.force"][5], doctest::Approx(B * (0.731 - 0.219)).epsilon(1e-5));
 }
+
+}  // namespace rheonet::test::signals_test

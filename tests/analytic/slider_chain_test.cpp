@@ -9,8 +9,7 @@
 #include "core/network/component.hpp"
 #include "tests/analytic/slider_checks.hpp"
 
-using namespace rheonet;
-using namespace rheonet::test;
+namespace rheonet::test::slider_chain_test {
 
 namespace {
 
@@ -193,3 +192,5 @@ output = {{ points = 101 }}
     CHECK_LE(summary.restarts, 10);
   }
 }
+
+}  // namespace rheonet::test::slider_chain_test

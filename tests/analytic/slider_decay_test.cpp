@@ -10,7 +10,7 @@
 #include "tests/analytic/slider_checks.hpp"
 #include "tests/analytic/sliding_motion.hpp"
 
-using namespace rheonet::test;
+namespace rheonet::test::slider_decay_test {
 
 namespace {
 
@@ -161,3 +161,5 @@ TEST_CASE("Energy of a mass that comes to rest on a slider") {
   CHECK_EQ(Fc * way, doctest::Approx(start - left).epsilon(1e-12));
   check_account(scene(0, Fc, x0, 0), {0, left - start, start - left});
 }
+
+}  // namespace rheonet::test::slider_decay_test

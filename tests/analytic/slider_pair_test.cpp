@@ -9,7 +9,7 @@
 #include "tests/analytic/slider_checks.hpp"
 #include "tests/analytic/sliding_motion.hpp"
 
-using namespace rheonet::test;
+namespace rheonet::test::slider_pair_test {
 
 namespace {
 
@@ -218,3 +218,5 @@ TEST_CASE("Sliders side by side: their forces add up, and share the load equally
     }
   }
 }
+
+}  // namespace rheonet::test::slider_pair_test

@@ -8,7 +8,7 @@
 #include "tests/analytic/slider_checks.hpp"
 #include "tests/analytic/sliding_motion.hpp"
 
-using namespace rheonet::test;
+namespace rheonet::test::slider_push_test {
 
 namespace {
 
@@ -154,3 +154,5 @@ TEST_CASE("A slider without sliding force holds until it breaks away") {
   const Levels levels{{0.9 * Fc, 1.1 * Fc, -0.8 * Fc, -0.8 * Fc, 0.3 * Fc}, 0.1937};
   check_motion(levels.toml(1), levels.stages(1), 0, Fc, levels.stop());
 }
+
+}  // namespace rheonet::test::slider_push_test

@@ -12,8 +12,7 @@
 #include "core/result/run.hpp"
 #include "tests/analytic/slider_checks.hpp"
 
-using namespace rheonet;
-using namespace rheonet::test;
+namespace rheonet::test::slider_refusal_test {
 
 namespace {
 
@@ -165,3 +164,5 @@ TEST_CASE("A slider of no force is none") {
                              {"block.force", [](double) { return 0; }}};
   check_at_all_accuracies(scene("1.13", mass + none), free);
 }
+
+}  // namespace rheonet::test::slider_refusal_test

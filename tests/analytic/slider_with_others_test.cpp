@@ -11,7 +11,7 @@
 #include "tests/analytic/sliding_motion.hpp"
 #include "tests/support/solid_friction.hpp"
 
-using namespace rheonet::test;
+namespace rheonet::test::slider_with_others_test {
 
 namespace {
 
@@ -262,3 +262,5 @@ TEST_CASE("Slider parallel to a spring, pushed without a mass") {
     check_between(netlist({}, tables, stop, 301), expected, jumps);
   }
 }
+
+}  // namespace rheonet::test::slider_with_others_test

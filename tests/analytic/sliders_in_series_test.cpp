@@ -9,7 +9,7 @@
 #include "tests/analytic/slider_checks.hpp"
 #include "tests/analytic/sliding_motion.hpp"
 
-using namespace rheonet::test;
+namespace rheonet::test::sliders_in_series_test {
 
 namespace {
 
@@ -180,3 +180,5 @@ TEST_CASE("Two sliders in series behind a mass") {
                   exact.instants());
   }
 }
+
+}  // namespace rheonet::test::sliders_in_series_test

@@ -11,7 +11,7 @@
 
 #include "tests/support/check.hpp"
 
-using namespace rheonet::test;
+namespace rheonet::test::standstill_test {
 
 namespace {
 
@@ -232,3 +232,5 @@ TEST_CASE("cfm beside others stands still") {
       {{spring(137.3)}, {cfm(312.3, 1.71, 1.5, 17.9), cfm(217.9, 1.37, 3, 7.7), sfm(83.7, 0.71, 1), spring(19.3)}},
       {1});
 }
+
+}  // namespace rheonet::test::standstill_test

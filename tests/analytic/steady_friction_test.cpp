@@ -8,8 +8,7 @@
 
 #include "tests/support/simulate.hpp"
 
-using namespace rheonet;
-using namespace rheonet::test;
+namespace rheonet::test::steady_friction_test {
 
 namespace {
 
@@ -103,3 +102,5 @@ TEST_CASE("steady friction: what starts in steady motion stays in it") {
   }
   CHECK(moving > 50);
 }
+
+}  // namespace rheonet::test::steady_friction_test

@@ -10,7 +10,7 @@
 #include "tests/analytic/slider_checks.hpp"
 #include "tests/analytic/sliding_motion.hpp"
 
-using namespace rheonet::test;
+namespace rheonet::test::stick_slip_test {
 
 namespace {
 
@@ -213,3 +213,5 @@ TEST_CASE("A belt that stops, turns and creeps") {
     check_dragged(dragged(Fs, c, belt, 0.0057, 0), exact, c);
   }
 }
+
+}  // namespace rheonet::test::stick_slip_test

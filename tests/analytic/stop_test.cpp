@@ -10,8 +10,7 @@
 
 #include "tests/analytic/slider_checks.hpp"
 
-using namespace rheonet;
-using namespace rheonet::test;
+namespace rheonet::test::stop_test {
 
 namespace {
 
@@ -239,3 +238,5 @@ TEST_CASE("stop: mistakes are refused") {
                                        "s = { type = \"stop\", between = [\"n\", \"ground\"], upper = 1, stiffness = 9, damping = 1 }\n[simulate]\nstop = 1\n");
   CHECK_MESSAGE(massless.find("the force of `s` depends, by its damping, on the velocity, and node `n` has no mass") != std::string::npos, massless);
 }
+
+}  // namespace rheonet::test::stop_test

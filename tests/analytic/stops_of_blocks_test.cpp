@@ -11,7 +11,7 @@
 
 #include "tests/support/check.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::stops_of_blocks_test {
 
 namespace {
 
@@ -154,4 +154,4 @@ record = ["a.velocity", "k1.force"]
   }
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::stops_of_blocks_test

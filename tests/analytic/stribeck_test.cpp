@@ -9,8 +9,7 @@
 #include "tests/analytic/slider_checks.hpp"
 #include "tests/support/random.hpp"
 
-using namespace rheonet;
-using namespace rheonet::test;
+namespace rheonet::test::stribeck_test {
 
 namespace {
 
@@ -124,3 +123,5 @@ TEST_CASE("stribeck: mistakes and limits") {
   CHECK(with("coulomb = 1, breakaway = 2, stribeck = 0.1", "k = { type = \"spring\", between = [\"x\", \"y\"], stiffness = 1 }\n"
              "d = { type = \"motion\", at = \"y\", velocity = 1 }").find("node `x` has no mass") != std::string::npos);
 }
+
+}  // namespace rheonet::test::stribeck_test

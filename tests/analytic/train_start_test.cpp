@@ -9,8 +9,7 @@
 
 #include "tests/support/simulate.hpp"
 
-using namespace rheonet;
-using namespace rheonet::test;
+namespace rheonet::test::train_start_test {
 
 namespace {
 
@@ -227,3 +226,5 @@ cc = { type = "spring", between = ["c", "ground"], stiffness = 10 }
     CHECK(summary.steps < 100);
   }
 }
+
+}  // namespace rheonet::test::train_start_test

@@ -13,8 +13,7 @@
 #include "core/result/certify.hpp"
 #include "tests/support/simulate.hpp"
 
-using namespace rheonet;
-using namespace rheonet::test;
+namespace rheonet::test::train_test {
 
 namespace {
 
@@ -394,3 +393,5 @@ TEST_CASE("trains: what cannot be is refused by name") {
   CHECK(message(p + Js + Jc + "m = { type = \"motion\", at = \"r\", position = { step = \"0.1 rad\", time = 0.5 } }\n") ==
         "at t = 0.5 s a step in position turns transmission `p` in no time, which takes a force beyond any bound; give the step a time to rise in");
 }
+
+}  // namespace rheonet::test::train_test

@@ -9,7 +9,7 @@
 
 #include "tests/support/check.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::transfer_test {
 
 namespace {
 
@@ -138,4 +138,4 @@ TEST_CASE("a transfer function in its steady state") {
   }
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::transfer_test

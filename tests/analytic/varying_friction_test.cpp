@@ -8,8 +8,7 @@
 #include "core/result/certify.hpp"
 #include "tests/support/simulate.hpp"
 
-using namespace rheonet;
-using namespace rheonet::test;
+namespace rheonet::test::varying_friction_test {
 
 namespace {
 
@@ -136,3 +135,5 @@ TEST_CASE("varying friction: what cannot be is refused by name") {
   CAPTURE(massless);
   CHECK(massless.find("node `a` has no mass") != massless.npos);
 }
+
+}  // namespace rheonet::test::varying_friction_test

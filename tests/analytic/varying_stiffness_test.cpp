@@ -8,8 +8,7 @@
 
 #include "tests/analytic/slider_checks.hpp"
 
-using namespace rheonet;
-using namespace rheonet::test;
+namespace rheonet::test::varying_stiffness_test {
 
 // m v' = -a t v.
 TEST_CASE("varying parameters: a mass slows down by a damping that rises, given by a signal and by a block") {
@@ -120,3 +119,5 @@ TEST_CASE("varying parameters: mistakes") {
        "m = { type = \"mass\", at = \"x\", mass = 1 }\nk = { type = \"spring\", between = [\"y\", \"ground\"], stiffness = 1 }\n");
   told("{ type = \"vfm\", between = [\"x\", \"ground\"], stiffness = 2, damping = 1, delay = { step = 2 } }", "what may vary in time is `damping` and `stiffness` of a `vfm`");
 }
+
+}  // namespace rheonet::test::varying_stiffness_test

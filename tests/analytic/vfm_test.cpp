@@ -7,7 +7,7 @@
 #include "tests/analytic/drives.hpp"
 #include "tests/support/check.hpp"
 
-using namespace rheonet::test;
+namespace rheonet::test::vfm_test {
 
 namespace {
 
@@ -98,3 +98,5 @@ series = [ { type = "spring", stiffness = "sigma" }, { type = "dashpot", damping
     }
   }
 }
+
+}  // namespace rheonet::test::vfm_test

@@ -4,7 +4,7 @@
 #include "tests/analytic/drives.hpp"
 #include "tests/support/check.hpp"
 
-using namespace rheonet::test;
+namespace rheonet::test::zener_test {
 
 namespace {
 
@@ -92,3 +92,5 @@ TEST_CASE("Zener, loaded") {
                             });
   }
 }
+
+}  // namespace rheonet::test::zener_test

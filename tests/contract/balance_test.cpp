@@ -6,7 +6,7 @@
 #include "tests/contract/situation.hpp"
 #include "tests/support/simulate.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::balance_test {
 
 namespace {
 
@@ -73,4 +73,4 @@ TEST_CASE("contract: what is supplied is stored or dissipated") {
   });
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::balance_test

@@ -6,7 +6,7 @@
 #include "core/network/component.hpp"
 #include "tests/contract/generic.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::declaration_test {
 
 namespace {
 
@@ -132,4 +132,4 @@ TEST_CASE("contract: the registry is in order, and finds what it lists") {
   CHECK_EQ(find_component("no such component"), nullptr);
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::declaration_test

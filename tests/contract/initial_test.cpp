@@ -5,7 +5,7 @@
 #include "tests/contract/situation.hpp"
 #include "tests/support/simulate.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::initial_test {
 
 // An initial force or displacement that is given is what the first row shows: beside a mass nothing jumps at the start.
 TEST_CASE("contract: an element starts with the initial values that it is given") {
@@ -37,4 +37,4 @@ TEST_CASE("contract: an element starts with the initial values that it is given"
   CHECK(displacements > 0);
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::initial_test

@@ -7,7 +7,7 @@
 #include "tests/contract/situation.hpp"
 #include "tests/support/probe.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::jacobian_test {
 
 namespace {
 
@@ -94,4 +94,4 @@ TEST_CASE("contract: Jacobian of the assembled equations") {
   });
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::jacobian_test

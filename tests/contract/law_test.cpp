@@ -8,7 +8,7 @@
 #include "tests/contract/situation.hpp"
 #include "tests/support/probe.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::law_test {
 
 namespace {
 
@@ -151,4 +151,4 @@ TEST_CASE("contract: derivatives and power of each law along trajectories") {
   });
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::law_test

@@ -9,7 +9,7 @@
 #include "tests/contract/situation.hpp"
 #include "tests/support/scene_builder.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::limits_test {
 
 namespace {
 
@@ -147,4 +147,4 @@ TEST_CASE("contract: at a limit a law is the law of the limit") {
   CHECK_MESSAGE(compared >= 0.95 * tried, compared << " of " << tried << " could be run near the limit");
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::limits_test

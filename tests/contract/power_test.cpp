@@ -8,7 +8,7 @@
 #include "tests/contract/situation.hpp"
 #include "tests/support/power_balance.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::power_test {
 
 TEST_CASE("contract: the power of an element is stored or dissipated") {
   constexpr int intervals = 4000;
@@ -36,4 +36,4 @@ TEST_CASE("contract: no element but one with a delay returns more than it stored
   });
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::power_test

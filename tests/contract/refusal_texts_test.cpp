@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace rheonet::test {
+namespace rheonet::test::refusal_texts_test {
 
 namespace {
 
@@ -69,4 +69,4 @@ TEST_CASE("contract: what is refused is told with names, and in the words of the
   CHECK_GE(count, 35);
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::refusal_texts_test

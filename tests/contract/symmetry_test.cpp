@@ -4,7 +4,7 @@
 #include "tests/contract/situation.hpp"
 #include "tests/support/transform.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::symmetry_test {
 
 namespace {
 
@@ -84,4 +84,4 @@ TEST_CASE("contract: nothing depends on the units") {
   });
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::symmetry_test

@@ -8,7 +8,7 @@
 #include "tests/contract/situation.hpp"
 #include "tests/support/transform.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::transmission_test {
 
 namespace {
 
@@ -29,4 +29,4 @@ TEST_CASE("contract: what is driven through gears is the same as what is driven 
 
 TEST_CASE("contract: gears may turn the direction round") { check_behind_gears(-0.413); }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::transmission_test

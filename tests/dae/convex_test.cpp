@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-using namespace rheonet;
+namespace rheonet::test::convex_test {
 
 // A chain of springs from a node that moves at v, with a slider to ground at each node. The first `sliding` are at their bounds,
 // which leave a motion forth free; the others hold whatever comes. Between the moved node and the first that holds, springs
@@ -61,3 +61,5 @@ TEST_CASE("Sliders are found whatever was guessed of them") {
     CHECK(problem.value(j + 1) == doctest::Approx(j <= held ? 0 : load / slope).epsilon(1e-6));
   }
 }
+
+}  // namespace rheonet::test::convex_test

@@ -10,7 +10,7 @@
 #include "tests/support/probe.hpp"
 #include "tests/support/scene_builder.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::dashpot_steps_test {
 
 namespace {
 
@@ -143,4 +143,4 @@ TEST_CASE("a rigid dashpot passes an impulse on to the mass behind it") {
   CHECK_THROWS_WITH_AS(Probe(b.finish(1, 10, 1e-6)), doctest::Contains("which share of its impulse"), SimulationError);
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::dashpot_steps_test

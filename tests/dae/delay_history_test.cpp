@@ -6,7 +6,7 @@
 
 #include "tests/support/scene_builder.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::delay_history_test {
 
 namespace {
 
@@ -161,4 +161,4 @@ TEST_CASE("past: a move in no time is felt once, by both ends with their signs")
   CHECK_EQ(r.history.take_steps(0, 0.2 + delay), 0);
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::delay_history_test

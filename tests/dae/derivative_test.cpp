@@ -7,7 +7,7 @@
 #include "tests/support/probe.hpp"
 #include "tests/support/scene_builder.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::derivative_test {
 
 namespace {
 
@@ -104,4 +104,4 @@ TEST_CASE("y' of a consistent state is the slope of the trajectory") {
   }
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::derivative_test

@@ -8,7 +8,7 @@
 
 #include "tests/dae/driven.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::inputs_test {
 
 namespace {
 
@@ -222,4 +222,4 @@ TEST_CASE("reversals of a sine are found at any amplitude") {
   CHECK(driven.inputs.next_reversal(0, -1, 0, 0.9) > 0.2);
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::inputs_test

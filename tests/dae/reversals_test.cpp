@@ -6,7 +6,7 @@
 
 #include "tests/dae/driven.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::reversals_test {
 
 namespace {
 
@@ -165,4 +165,4 @@ TEST_CASE("the next reversal is the same whatever was asked before") {
   CHECK(finite < asked - 1000);
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::reversals_test

@@ -15,7 +15,7 @@
 #include "tests/support/random.hpp"
 #include "tests/support/simulate.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::short_delay_test {
 
 namespace {
 
@@ -199,4 +199,4 @@ TEST_CASE("a delay that the times of a run do not resolve is left out, and told"
   }
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::short_delay_test

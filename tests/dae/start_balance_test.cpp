@@ -5,7 +5,7 @@
 #include "tests/dae/started.hpp"
 #include "tests/support/simulate.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::start_balance_test {
 
 namespace {
 
@@ -184,4 +184,4 @@ TEST_CASE("what hangs on one place alone may begin out of balance, by one spring
   }
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::start_balance_test

@@ -7,7 +7,7 @@
 #include "tests/dae/started.hpp"
 #include "tests/support/solid_friction.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::start_test {
 
 namespace {
 
@@ -258,4 +258,4 @@ TEST_CASE("an initial force goes before the rest length, and the displacement is
   CHECK_EQ(s.acceleration("a"), exactly(1.3 / m));
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::start_test

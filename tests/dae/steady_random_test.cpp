@@ -10,7 +10,7 @@
 #include "tests/support/scene_builder.hpp"
 #include "tests/support/simulate.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::steady_random_test {
 
 namespace {
 
@@ -99,4 +99,4 @@ TEST_CASE("steady: forces and velocities of random networks stay, or the reason 
   CHECK(refused > 15);
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::steady_random_test

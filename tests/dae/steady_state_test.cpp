@@ -9,7 +9,7 @@
 #include "tests/support/scene_builder.hpp"
 #include "tests/support/simulate.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::steady_state_test {
 
 namespace {
 
@@ -349,4 +349,4 @@ TEST_CASE("rest: all stands still, and the drives begin at the start") {
   }
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::steady_state_test

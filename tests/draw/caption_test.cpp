@@ -10,9 +10,9 @@
 #include "tools/draw/literals.hpp"
 #include "tools/draw/schematic.hpp"
 
-using namespace rheonet;
+namespace rheonet::test::caption_test {
+
 using namespace rheonet::draw;
-using namespace rheonet::test;
 
 namespace {
 
@@ -116,3 +116,5 @@ TEST_CASE("a sum of many inputs is a box at whose side all of them arrive, and n
           CHECK(!(a.x == b.x && c.y == d.y && between(a.y, c.y, b.y) && between(c.x, a.x, d.x)));
         }
 }
+
+}  // namespace rheonet::test::caption_test

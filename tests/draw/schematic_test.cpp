@@ -15,9 +15,9 @@
 #include "tests/support/xml.hpp"
 #include "tools/plot/mistake.hpp"
 
-using namespace rheonet;
+namespace rheonet::test::schematic_test {
+
 using namespace rheonet::draw;
-using namespace rheonet::test;
 
 namespace {
 
@@ -405,3 +405,5 @@ TEST_CASE("an SVG is well-formed XML that names each element and each node, and 
   for (const SceneNode& node : scene.nodes) CHECK(contains(text, " data-node=\"" + node.name + "\""));
   CHECK(text == svg(schematic(scene, {.title = "a < b & \"c\"\x01\xff"}), scene));
 }
+
+}  // namespace rheonet::test::schematic_test

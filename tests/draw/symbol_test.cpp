@@ -9,7 +9,8 @@
 #include "tools/draw/caption.hpp"
 #include "tools/draw/symbol_path.hpp"
 
-using namespace rheonet;
+namespace rheonet::test::symbol_test {
+
 using namespace rheonet::draw;
 
 namespace {
@@ -152,3 +153,5 @@ TEST_CASE("values are written as engineers do") {
   CHECK(in_print("Fc") == "Fc");
   CHECK(in_print("eta_b") == "ηb");
 }
+
+}  // namespace rheonet::test::symbol_test

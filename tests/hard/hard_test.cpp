@@ -14,8 +14,8 @@
 #include "tests/support/scene_file.hpp"
 #include "tests/support/transform.hpp"
 
-using namespace rheonet;
-using namespace rheonet::test;
+namespace rheonet::test::hard_test {
+
 namespace fs = std::filesystem;
 
 namespace {
@@ -209,3 +209,5 @@ TEST_CASE("the generated part of netlists/hard/README.md is up to date") {
   const bool up_to_date = page.substr(marker) == made.out;
   CHECK_MESSAGE(up_to_date, "netlists/hard/README.md is stale; tools/hard says how to bring it up to date");
 }
+
+}  // namespace rheonet::test::hard_test

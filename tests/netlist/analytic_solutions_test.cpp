@@ -5,7 +5,7 @@
 
 #include "tests/netlist/reading.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::analytic_solutions_test {
 
 namespace {
 
@@ -27,7 +27,7 @@ record = ["k1.force", "c1.force", "a.velocity"]
 }  // namespace
 
 TEST_CASE("closed forms: expressions over parameters and the time, in SI") {
-  const Scene scene = scene_of(head + R"~("k1.force" = "F*exp(-t/tau)"
+  const Scene scene = sound_scene(head + R"~("k1.force" = "F*exp(-t/tau)"
 c1.force = "t < t0 ? 0 : F*(t - t0)/tau"
 "a.velocity" = 1
 )~");
@@ -45,14 +45,14 @@ c1.force = "t < t0 ? 0 : F*(t - t0)/tau"
 TEST_CASE("closed forms follow parameters that are set, and have no value where they have none") {
   ReadOptions options;
   options.overrides = {"parameters.tau=0.25 s"};
-  const Scene scene = scene_of(head + "\"k1.force\" = \"F*sqrt((t - t0)/tau)\"\n", options);
+  const Scene scene = sound_scene(head + "\"k1.force\" = \"F*sqrt((t - t0)/tau)\"\n", options);
   REQUIRE(scene.exact.size() == 1);
   CHECK(scene.exact[0].value(2.5) == doctest::Approx(4));
   CHECK(std::isnan(scene.exact[0].value(1.25)));
 }
 
 TEST_CASE("without units in a scene the time has none either") {
-  const Scene scene = scene_of(R"~([elements]
+  const Scene scene = sound_scene(R"~([elements]
 m = { type = "mass", at = "a", mass = 1 }
 [nodes]
 a = { velocity = 3 }
@@ -99,4 +99,4 @@ scene.toml:18:1: error: nothing is called `k9`
 )~");
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::analytic_solutions_test

@@ -3,7 +3,7 @@
 #include "core/network/component.hpp"
 #include "tests/netlist/reading.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::bad_blocks_test {
 
 namespace {
 
@@ -418,4 +418,4 @@ scene.toml:5:1: error: a `sample` needs `period`
   for (const Bad& bad : cases) check_messages(bad);
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::bad_blocks_test

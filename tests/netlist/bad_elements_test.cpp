@@ -2,7 +2,7 @@
 
 #include "tests/netlist/reading.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::bad_elements_test {
 
 TEST_CASE("bad netlists: elements") {
   check_all({
@@ -339,4 +339,4 @@ scene.toml:4:15: error: unknown element type `sprin`
   });
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::bad_elements_test

@@ -5,7 +5,7 @@
 #include "tests/netlist/fake_declarations.hpp"
 #include "tests/netlist/reading.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::bad_files_test {
 
 namespace {
 
@@ -296,7 +296,7 @@ TEST_CASE("an accuracy of the command line out of bounds") {
       |            ^
 )~");
   options.accuracy = 1e-3;
-  CHECK(scene_of(netlist, options).accuracy == 1e-3);
+  CHECK(sound_scene(netlist, options).accuracy == 1e-3);
 }
 
 TEST_CASE("beyond 200 mistakes the others are not looked for") {
@@ -331,4 +331,4 @@ TEST_CASE("a megabyte of mistyped names is refused in a time in proportion to it
   CHECK(one[0].hint.empty());
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::bad_files_test

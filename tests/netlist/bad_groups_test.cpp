@@ -2,7 +2,7 @@
 
 #include "tests/netlist/reading.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::bad_groups_test {
 
 TEST_CASE("bad netlists: series, parallel and repeat") {
   check_all({
@@ -247,4 +247,4 @@ scene.toml:5:65: error: this `repeat` makes 10000000 elements; a scene may have 
   });
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::bad_groups_test

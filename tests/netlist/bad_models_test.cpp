@@ -2,7 +2,7 @@
 
 #include "tests/netlist/reading.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::bad_models_test {
 
 TEST_CASE("bad netlists: models") {
   check_all({
@@ -335,4 +335,4 @@ scene.toml:3:16: error: parameters depend on each other in a circle: `k` -> `l` 
   });
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::bad_models_test

@@ -2,7 +2,7 @@
 
 #include "tests/netlist/reading.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::bad_overrides_test {
 
 TEST_CASE("bad netlists: --set") {
   check_all({
@@ -285,4 +285,4 @@ command line: error: `push` has both `between` and `at`
   });
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::bad_overrides_test

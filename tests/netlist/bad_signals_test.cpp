@@ -2,7 +2,7 @@
 
 #include "tests/netlist/reading.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::bad_signals_test {
 
 TEST_CASE("bad netlists: signals") {
   check_all({
@@ -249,4 +249,4 @@ scene.toml:8:79: error: `seed`: expected a number without a unit, found a time (
   });
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::bad_signals_test

@@ -2,7 +2,7 @@
 
 #include "tests/netlist/reading.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::bad_simulate_test {
 
 TEST_CASE("bad netlists: the tables of a scene, records and initial values") {
   check_all({
@@ -380,4 +380,4 @@ scene.toml:5:11: error: `time` is no quantity of an element or a node: it is the
   });
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::bad_simulate_test

@@ -2,7 +2,7 @@
 
 #include "tests/netlist/reading.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::bad_syntax_test {
 
 TEST_CASE("bad netlists: what is no TOML") {
   check_all({
@@ -208,4 +208,4 @@ scene.toml:3:1: error: key `k1` is given twice
   });
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::bad_syntax_test

@@ -2,7 +2,7 @@
 
 #include "tests/netlist/reading.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::bad_values_test {
 
 TEST_CASE("bad netlists: values") {
   check_all({
@@ -288,4 +288,4 @@ scene.toml:2:5: error: `a` must be a number or a string with a quantity or an ex
   });
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::bad_values_test

@@ -11,7 +11,7 @@
 #include "tests/netlist/reading.hpp"
 #include "tests/support/simulate.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::blocks_test {
 
 namespace {
 
@@ -171,4 +171,4 @@ stop = 1
   for (const Finding& finding : summary.findings) CHECK(finding.holds);
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::blocks_test

@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-using namespace rheonet;
+namespace rheonet::test::characters_test {
 
 TEST_CASE("UTF-8 of one to four bytes is decoded and encoded again") {
   const std::string text = "aµ\u07FF\u0800∞\uFFFD\U00010000😀\U0010FFFF";
@@ -25,3 +25,5 @@ TEST_CASE("bytes that are not UTF-8 are one character each and survive") {
     CHECK(encode(decode(text)) == text);
   }
 }
+
+}  // namespace rheonet::test::characters_test

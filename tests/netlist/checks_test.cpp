@@ -3,7 +3,7 @@
 
 #include "tests/netlist/reading.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::checks_test {
 
 namespace {
 
@@ -170,4 +170,4 @@ scene.toml:1:9: error: `check` must be a table, but is the string "n < 3"
 )~"}});
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::checks_test

@@ -10,7 +10,7 @@
 #include "core/netlist/signal.hpp"
 #include "tests/support/simulate.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::curve_test {
 
 namespace {
 
@@ -102,4 +102,4 @@ TEST_CASE("a smooth table is one stretch from jump to jump, and held before and 
   CHECK(signal.piece(1.6).integral(1.7, 4.1) == doctest::Approx(alone.area(4.1) - alone.area(1.7)).epsilon(1e-14));
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::curve_test

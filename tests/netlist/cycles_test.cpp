@@ -8,7 +8,8 @@
 #include "core/netlist/functions.hpp"
 #include "tests/netlist/reading.hpp"
 
-using namespace rheonet;
+namespace rheonet::test::cycles_test {
+
 using doctest::Approx;
 using std::numbers::pi;
 
@@ -148,3 +149,5 @@ s = { type = "motion", at = "b", position = { sine = 1, frequency = "f" } }
   const std::string refused = test::messages(test::read(scene, {.overrides = {"parameters.f=600 rpm"}}));
   CHECK(refused.find("found pi times what is in radians already") != std::string::npos);
 }
+
+}  // namespace rheonet::test::cycles_test

@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-using namespace rheonet;
+namespace rheonet::test::diagnostic_test {
 
 namespace {
 
@@ -85,3 +85,5 @@ TEST_CASE("the nearest name is within a third of the length, or two edits") {
   CHECK(nearest("k1", {}) == "");
   CHECK(nearest("n", {"mm", "N", "m"}) == "N");  // they differ in case only
 }
+
+}  // namespace rheonet::test::diagnostic_test

@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-using namespace rheonet;
+namespace rheonet::test::dimension_test {
 
 namespace {
 
@@ -73,3 +73,5 @@ TEST_CASE("a dimension is described in words where it has a name") {
   CHECK(describe({1, 0, 0}, 1) == "a length (m)");
   CHECK(describe({0.5, 1, -1.5}) == "a quantity in kg*m^0.5*s^-1.5");
 }
+
+}  // namespace rheonet::test::dimension_test

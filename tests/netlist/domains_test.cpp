@@ -6,8 +6,7 @@
 
 #include "tests/support/simulate.hpp"
 
-using namespace rheonet;
-using namespace rheonet::test;
+namespace rheonet::test::domains_test {
 
 namespace {
 
@@ -184,3 +183,5 @@ die = { type = "spring", between = ["rma", "ground"], stiffness = "4e5 N/m" }
   CHECK(told.find("nothing but `die` is at node `rma`") != std::string::npos);
   CHECK(told.find("did you mean `ram`?") != std::string::npos);
 }
+
+}  // namespace rheonet::test::domains_test

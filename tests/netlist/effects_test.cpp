@@ -3,7 +3,7 @@
 #include "core/network/component.hpp"
 #include "tests/netlist/reading.hpp"
 
-using namespace rheonet;
+namespace rheonet::test::effects_test {
 
 namespace {
 
@@ -101,3 +101,5 @@ TEST_CASE("to leave out an effect that nothing has is told; to keep one is not")
   CHECK_EQ(told("", without({"inertia", "elasticity:oil", "viscosity"})), "");
   CHECK_EQ(told("", only({"inertia", "delay"})), "");
 }
+
+}  // namespace rheonet::test::effects_test

@@ -6,10 +6,10 @@
 #include "tests/netlist/summary.hpp"
 #include "tests/support/contract_scene.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::expand_test {
 
 TEST_CASE("the scene of the contract") {
-  const Scene scene = scene_of(contract_scene);
+  const Scene scene = sound_scene(contract_scene);
   CHECK(scene.title == "Bingham element: spring in series with (dashpot parallel to slider)");
   CHECK(scene.domain == Domain::rotation);
   CHECK(nodes_of(scene) == "drum mid");
@@ -32,7 +32,7 @@ TEST_CASE("the scene of the contract") {
 }
 
 TEST_CASE("elements: defaults, bounds, names of each domain") {
-  const Scene translation = scene_of(R"~(
+  const Scene translation = sound_scene(R"~(
 [elements]
 k = { type = "spring", between = ["a", "b"], stiffness = "2 N/mm", rest = "-3 mm", f0 = "-4 N" }
 c = { type = "dashpot", between = ["b", "ground"], damping = "3 N*(s/m)^0.5", flow_index = 0.5 }
@@ -51,7 +51,7 @@ g = { type = "force", between = ["a", "b"], force = 6 }
   CHECK(motion.signal_parameters == std::vector<int>{0});
   CHECK(std::isnan(motion.values[0]));
 
-  const Scene rotation = scene_of(R"~(
+  const Scene rotation = sound_scene(R"~(
 domain = "rotation"
 [elements]
 m = { type = "mass", at = "a", inertia = "3 g*cm^2" }
@@ -83,13 +83,13 @@ scene.toml:3:1: warning: `f1` is at `ground`, which never moves: it has no effec
 }
 
 TEST_CASE("series and parallel are the same network as by nodes") {
-  const Scene by_nodes = scene_of(R"~(
+  const Scene by_nodes = sound_scene(R"~(
 [elements]
 k1 = { type = "spring", between = ["drum", "node1"], stiffness = 100 }
 c1 = { type = "dashpot", between = ["node1", "ground"], damping = 3 }
 s1 = { type = "slider", between = ["node1", "ground"], coulomb = 2 }
 )~");
-  const Scene composed = scene_of(R"~(
+  const Scene composed = sound_scene(R"~(
 [elements.bingham]
 between = ["drum", "ground"]
 series = [
@@ -111,7 +111,7 @@ series = [
 
 TEST_CASE("names within an assembly") {
   // Unnamed ones by type and number through the whole assembly, inner nodes as one reads; a named group is a level.
-  const Scene scene = scene_of(R"~(
+  const Scene scene = sound_scene(R"~(
 [elements.g]
 between = ["a", "b"]
 series = [
@@ -139,7 +139,7 @@ series = [
 TEST_CASE("the force of an assembly") {
   // The force of a parallel group is the sum over its members. An applied force counts negative: it reduces the force that must be applied
   // to the group.
-  const Scene scene = scene_of(R"~(
+  const Scene scene = sound_scene(R"~(
 [elements.g]
 between = ["a", "b"]
 parallel = [
@@ -152,7 +152,7 @@ parallel = [
 }
 
 TEST_CASE("repeat: chains and bundles") {
-  const Scene scene = scene_of(R"~(
+  const Scene scene = sound_scene(R"~(
 [parameters]
 k = "6 N/m"
 i = 1000
@@ -173,7 +173,7 @@ one = { type = "spring", between = ["a", "b"], stiffness = "i", repeat = { count
 }
 
 TEST_CASE("repeat: of groups, within groups, of models") {
-  const Scene scene = scene_of(R"~(
+  const Scene scene = sound_scene(R"~(
 [models.cell]
 ports = ["in", "out"]
 parameters = { k = 1 }
@@ -206,7 +206,7 @@ series = [
 }
 
 TEST_CASE("a hundred thousand members") {
-  const Scene scene = scene_of(R"~(
+  const Scene scene = sound_scene(R"~(
 [parameters]
 k = "6 N/m"
 [elements]
@@ -227,9 +227,9 @@ TEST_CASE("groups within groups, as deep as TOML goes") {
   for (int depth = 0; depth < 120; ++depth)
     group = std::string("{ ") + (depth % 2 ? "series" : "parallel") + " = [ " + group +
             ", { type = \"spring\", stiffness = 2 } ] }";
-  const Scene scene = scene_of("[elements.g]\nbetween = [\"a\", \"b\"]\nseries = [ " + group + " ]\n");
+  const Scene scene = sound_scene("[elements.g]\nbetween = [\"a\", \"b\"]\nseries = [ " + group + " ]\n");
   CHECK(scene.elements.size() == 121);
   CHECK(scene.nodes.size() == 3 + 60);
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::expand_test

@@ -5,7 +5,7 @@
 
 #include "tests/netlist/reading.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::expect_table_test {
 
 namespace {
 
@@ -23,7 +23,7 @@ record = ["k1.force"]
 [expect]
 )~";
 
-Scene expecting(const std::string& lines) { return scene_of(head + lines); }
+Scene expecting(const std::string& lines) { return sound_scene(head + lines); }
 
 }  // namespace
 
@@ -248,4 +248,4 @@ scene.toml:9:42: error: `within` allows a fraction of the claimed ratio, and tha
 )~");
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::expect_table_test

@@ -9,7 +9,8 @@
 #include <numbers>
 #include <string>
 
-using namespace rheonet;
+namespace rheonet::test::expression_test {
+
 using doctest::Approx;
 using std::numbers::pi;
 
@@ -274,3 +275,5 @@ TEST_CASE("expressions are as deep as anybody writes them, and no deeper") {
   CHECK(refusal(nested(501)).message == "parentheses are nested too deeply");
   CHECK(refusal(std::string(100000, '(')).offset == 500);
 }
+
+}  // namespace rheonet::test::expression_test

@@ -6,7 +6,8 @@
 #include <cmath>
 #include <vector>
 
-using namespace rheonet;
+namespace rheonet::test::lookup_table_test {
+
 using doctest::Approx;
 
 namespace {
@@ -108,3 +109,5 @@ TEST_CASE("lookup tables: a smooth one passes through its points, with exact der
   REQUIRE(table.switching_functions(at, side, guard));
   CHECK(guard[0] == Approx(0.1));
 }
+
+}  // namespace rheonet::test::lookup_table_test

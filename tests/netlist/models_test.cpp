@@ -3,10 +3,10 @@
 #include "tests/netlist/reading.hpp"
 #include "tests/netlist/summary.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::models_test {
 
 TEST_CASE("the model of the contract") {
-  const Scene scene = scene_of(R"~(
+  const Scene scene = sound_scene(R"~(
 [models.bingham]
 ports      = ["a", "b"]
 parameters = { k = "100 N/m", B = "0.5 N*s/m", Fc = "2 N" }
@@ -40,7 +40,7 @@ record = ["pivot.k1.force", "pivot.mid.velocity", "pivot.force", "pivot.velocity
 }
 
 TEST_CASE("a model's force: everything at its first port, with its sign, and nothing else that is at the same node") {
-  const Scene scene = scene_of(R"~(
+  const Scene scene = sound_scene(R"~(
 [models.mixed]
 ports = ["a", "b"]
 [models.mixed.elements]
@@ -62,7 +62,7 @@ y = { type = "spring", between = ["b", "ground"], stiffness = 8 }
 }
 
 TEST_CASE("scopes: a model sees its parameters and those of its file, and no node of the scene but ground") {
-  const Scene scene = scene_of(R"~(
+  const Scene scene = sound_scene(R"~(
 [parameters]
 k = "2*half"
 half = "50 N/m"
@@ -92,7 +92,7 @@ b = { type = "outer", at = "drum", k = "k/10" }
 }
 
 TEST_CASE("models in series, with three ports, and named as a group's members") {
-  const Scene scene = scene_of(R"~(
+  const Scene scene = sound_scene(R"~(
 [models.two]
 ports = ["a", "b"]
 elements = { k = { type = "spring", between = ["a", "b"], stiffness = 1 } }
@@ -151,7 +151,7 @@ elements = { m = { type = "mass", at = "a", mass = "m" } }
   options.model_folders = {folder.path() / "library"};
   options.overrides = {"models.part.parameters.m=4"};
   // The same file twice is no circle, and the scene's parameters are not those of the library.
-  const Scene scene = scene_of(R"~(
+  const Scene scene = sound_scene(R"~(
 include = ["library/cells.toml", "own/more.toml", "own/again.toml", "library/parts.toml"]
 [parameters]
 k = "1 N/m"
@@ -166,7 +166,7 @@ k = { type = "spring", between = ["x", "y"], stiffness = "k" }
   folder.write("scenes/library/parts.toml",
                "[models.part]\nports = [\"a\"]\nelements = { m = { type = \"mass\", at = \"a\", mass = 5 } }\n");
   options.overrides = {};
-  const Scene own = scene_of("include = [\"library/parts.toml\"]\n[elements]\np = { type = \"part\", at = \"x\" }\n",
+  const Scene own = sound_scene("include = [\"library/parts.toml\"]\n[elements]\np = { type = \"part\", at = \"x\" }\n",
                              options, folder.path() / "scenes");
   CHECK(elements_of(own) == "p.m: mass x 5\n");
   CHECK_FALSE(read("include = [\"cells.toml\"]\n[elements]\np = { type = \"cell\", between = [\"x\", \"y\"] }\n",
@@ -186,11 +186,11 @@ T = "5 N*m"
 )~";
   const std::string instance = "[elements]\np = { type = \"part\", at = \"x\", m = \"J\", F = \"T\" }\n";
   ReadOptions options;
-  CHECK(elements_of(scene_of("domain = \"rotation\"\n" + models + instance, options)).starts_with("p.m: mass x 3\n"));
+  CHECK(elements_of(sound_scene("domain = \"rotation\"\n" + models + instance, options)).starts_with("p.m: mass x 3\n"));
   options.overrides = {"p.m.mass=\"7 kg*m^2\""};
-  CHECK(elements_of(scene_of("domain = \"rotation\"\n" + models + instance, options)).starts_with("p.m: mass x 7\n"));
+  CHECK(elements_of(sound_scene("domain = \"rotation\"\n" + models + instance, options)).starts_with("p.m: mass x 7\n"));
   options.overrides = {"p.m.inertia=\"7 kg*m^2\""};
-  CHECK(elements_of(scene_of("domain = \"rotation\"\n" + models + instance, options)).starts_with("p.m: mass x 7\n"));
+  CHECK(elements_of(sound_scene("domain = \"rotation\"\n" + models + instance, options)).starts_with("p.m: mass x 7\n"));
   CHECK(messages(read(models + instance, options)).find("`inertia` is called `mass` in a translational scene") !=
         std::string::npos);
   options.overrides = {};
@@ -198,7 +198,7 @@ T = "5 N*m"
 }
 
 TEST_CASE("a model with some parameters that have defaults, and some that have none") {
-  const Scene scene = scene_of(R"~(
+  const Scene scene = sound_scene(R"~(
 [models.m]
 ports = ["a", "b"]
 parameters = ["k", { factor = 3, more = "factor*k" }, "B", { again = "2*more" }]
@@ -212,4 +212,4 @@ y = { type = "m", between = ["p", "ground"], k = "2 N/m", B = "5 N*s/m", factor 
   CHECK(elements_of(scene) == "x.k: spring p-ground 12 0\nx.c: dashpot p-ground 5 1\ny.k: spring p-ground 14 0\ny.c: dashpot p-ground 5 1\n");
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::models_test

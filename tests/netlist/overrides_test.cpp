@@ -3,12 +3,12 @@
 #include "tests/netlist/reading.hpp"
 #include "tests/netlist/summary.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::overrides_test {
 
 namespace {
 
 Scene with(const std::string& netlist, std::vector<std::string> overrides) {
-  return scene_of(netlist, {.overrides = std::move(overrides), .accuracy = {}, .model_folders = {}});
+  return sound_scene(netlist, {.overrides = std::move(overrides), .accuracy = {}, .model_folders = {}});
 }
 
 const std::string netlist = R"~(
@@ -163,4 +163,4 @@ TEST_CASE("a cache of files gives the same scenes, whatever the overrides were b
   }
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::overrides_test

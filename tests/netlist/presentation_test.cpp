@@ -3,7 +3,7 @@
 
 #include "tests/netlist/reading.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::presentation_test {
 
 namespace {
 
@@ -58,10 +58,10 @@ log = "xy"
 
 TEST_CASE("what [plot] draws is recorded besides where that is asked for, and only there") {
   const std::string lines = "[plot]\ny = [\"c1.force\", \"k1.force\"]\n";
-  CHECK(scene_of(head + lines).records.size() == 1);
+  CHECK(sound_scene(head + lines).records.size() == 1);
   ReadOptions options;
   options.plotted = true;
-  const Scene scene = scene_of(head + lines, options);
+  const Scene scene = sound_scene(head + lines, options);
   REQUIRE(scene.records.size() == 2);
   CHECK(scene.records[0].path == "k1.force");
   CHECK(scene.records[1].path == "c1.force");
@@ -176,4 +176,4 @@ scene.toml:20:11: error: slider `z`: a slider ends at finite values
 )~");
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::presentation_test

@@ -5,7 +5,8 @@
 
 #include "core/netlist/expression.hpp"
 
-using namespace rheonet;
+namespace rheonet::test::quantity_test {
+
 using doctest::Approx;
 using std::numbers::pi;
 
@@ -100,3 +101,5 @@ TEST_CASE("likely causes of a wrong dimension are hinted at") {
         "with a flow index of 0.5, force = damping * velocity^0.5");
   CHECK(refusal("2 s", Quantity::force, translation).hint.empty());
 }
+
+}  // namespace rheonet::test::quantity_test

@@ -20,7 +20,7 @@ std::string messages(const ReadResult& result) {
   return text;
 }
 
-Scene scene_of(const std::string& netlist, const ReadOptions& options, const fs::path& folder) {
+Scene sound_scene(const std::string& netlist, const ReadOptions& options, const fs::path& folder) {
   const ReadResult result = read(netlist, options, folder);
   INFO(netlist);
   REQUIRE_MESSAGE(result.scene, messages(result));

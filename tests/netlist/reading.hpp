@@ -18,7 +18,7 @@ ReadResult read(const std::string& netlist, const ReadOptions& options = {},
 std::string messages(const ReadResult& result);
 
 /// The scene of a sound netlist; fails the test with its messages otherwise.
-Scene scene_of(const std::string& netlist, const ReadOptions& options = {},
+Scene sound_scene(const std::string& netlist, const ReadOptions& options = {},
                const std::filesystem::path& folder = "no-such-folder");
 
 struct BadNetlist {

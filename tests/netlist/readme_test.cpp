@@ -6,7 +6,7 @@
 #include "core/network/component.hpp"
 #include "tests/netlist/reading.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::readme_test {
 
 TEST_CASE("every example of the reference of the format is a scene") {
   const std::filesystem::path root = RHEONET_SOURCE_DIR;
@@ -29,4 +29,4 @@ TEST_CASE("every example of the reference of the format is a scene") {
   CHECK(examples >= 6);
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::readme_test

@@ -7,7 +7,7 @@
 #include "tests/netlist/reading.hpp"
 #include "tests/netlist/summary.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::record_expressions_test {
 
 namespace {
 
@@ -33,7 +33,7 @@ bool contains_all(const std::string& text, std::initializer_list<const char*> pa
 }  // namespace
 
 TEST_CASE("record expressions: operands, unit and value") {
-  const Scene scene = scene_of(recording("\"x.velocity\", { name = \"gap\", value = \"x.position - y.position + limit\" }, "
+  const Scene scene = sound_scene(recording("\"x.velocity\", { name = \"gap\", value = \"x.position - y.position + limit\" }, "
                                          "{ name = \"double\", value = \"2*gap*k.force\" }, { name = \"late\", value = \"early/2\" }, { name = \"early\", value = \"abs(x.velocity)\" }"));
   CHECK(records_of(scene) == "x.velocity gap double late early");
   const Record& gap = scene.records[1];
@@ -52,7 +52,7 @@ TEST_CASE("record expressions: operands, unit and value") {
 }
 
 TEST_CASE("record expressions: a value that does not exist is not a number, and its unit is known all the same") {
-  const Scene scene = scene_of(recording("{ name = \"r\", value = \"sqrt(k.displacement)/(x.position - y.position)\" }"));
+  const Scene scene = sound_scene(recording("{ name = \"r\", value = \"sqrt(k.displacement)/(x.position - y.position)\" }"));
   const SceneExpression& r = scene.expressions.front();
   const std::array<double, 3> imaginary{-1, 2, 1}, infinite{4, 1, 1}, sound{4, 3, 1};
   CHECK(std::isnan(r.value(imaginary)));
@@ -62,7 +62,7 @@ TEST_CASE("record expressions: a value that does not exist is not a number, and 
 }
 
 TEST_CASE("record expressions: quantities of records") {
-  const Scene scene = scene_of(recording("\"x.acceleration\", \"k.power\", \"k.dissipated\", \"g.energy\""));
+  const Scene scene = sound_scene(recording("\"x.acceleration\", \"k.power\", \"k.dissipated\", \"g.energy\""));
   const char* const units[] = {"m/s^2", "W", "W", "J"};
   for (std::size_t k = 0; k < 4; ++k) CHECK(unit_text(scene, scene.records[k]) == units[k]);
   // The record of an assembly is the sum over its elements.
@@ -73,7 +73,7 @@ TEST_CASE("record expressions: quantities of records") {
 }
 
 TEST_CASE("record expressions: quantities of records in rotation") {
-  const Scene scene = scene_of("domain = \"rotation\"\n[elements]\nk = { type = \"spring\", between = [\"x\", \"y\"], stiffness = 1 }\n"
+  const Scene scene = sound_scene("domain = \"rotation\"\n[elements]\nk = { type = \"spring\", between = [\"x\", \"y\"], stiffness = 1 }\n"
                                "[simulate]\nstop = 1\nrecord = [\"x.acceleration\", \"k.power\", \"k.energy\", { name = \"turn\", value = \"x.position - y.position\" }]\n");
   const char* const units[] = {"rad/s^2", "W", "J", "rad"};
   for (std::size_t k = 0; k < 4; ++k) CHECK(unit_text(scene, scene.records[k]) == units[k]);
@@ -121,7 +121,7 @@ TEST_CASE("record expressions: a mistake in one is told once, a misspelt name of
 }
 
 TEST_CASE("record expressions: claims and a second mention find them by their names") {
-  const Scene scene = scene_of(recording("{ name = \"gap\", value = \"x.position - y.position\" }, \"k.energy\"") +
+  const Scene scene = sound_scene(recording("{ name = \"gap\", value = \"x.position - y.position\" }, \"k.energy\"") +
                                "[expect]\ngap = { final = \"1 mm\" }\n\"g.dissipated\" = { max = \"1 mW\" }\n");
   REQUIRE(scene.claimed.size() == 2);
   CHECK(scene.claimed[0].subject == Record::Subject::expression);
@@ -129,4 +129,4 @@ TEST_CASE("record expressions: claims and a second mention find them by their na
   CHECK(contains_all(messages(read(recording("{ name = \"gap\", value = \"x.position - y.position\" }") + "[expect]\ngap = { final = \"1 N\" }\n")), {"expected a length (m), found a force (N)"}));
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::record_expressions_test

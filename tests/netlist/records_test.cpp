@@ -5,7 +5,7 @@
 #include "tests/netlist/reading.hpp"
 #include "tests/netlist/summary.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::records_test {
 
 namespace {
 
@@ -16,12 +16,12 @@ m = { type = "mass", at = "y", mass = 1 }
 g = { between = ["x", "y"], series = [ { name = "k", type = "spring", stiffness = 1 }, { type = "dashpot", damping = 1 } ] }
 )~";
 
-Scene simulating(const std::string& lines) { return scene_of(netlist + "[simulate]\n" + lines); }
+Scene simulating(const std::string& lines) { return sound_scene(netlist + "[simulate]\n" + lines); }
 
 }  // namespace
 
 TEST_CASE("records: everything, in the order of the file") {
-  CHECK(records_of(scene_of(netlist)) ==
+  CHECK(records_of(sound_scene(netlist)) ==
         "x.position x.velocity y.position y.velocity g.node1.position g.node1.velocity "
         "x.force m.force g.k.force g.k.displacement g.k.velocity "
         "g.dashpot1.force g.dashpot1.displacement g.dashpot1.velocity g.force g.displacement g.velocity");
@@ -83,7 +83,7 @@ TEST_CASE("simulate: output times") {
 }
 
 TEST_CASE("initial values: parameters, units, and what is not given") {
-  const Scene scene = scene_of(netlist + R"~(
+  const Scene scene = sound_scene(netlist + R"~(
 [parameters]
 v0 = "3 mm/s"
 [nodes]
@@ -103,7 +103,7 @@ TEST_CASE("parameters: in any order, also a long chain of them") {
   std::string text = "[parameters]\n";
   for (int i = 5000; i > 0; --i) text += "p" + std::to_string(i) + " = \"p" + std::to_string(i - 1) + " + 1\"\n";
   text += "p0 = 1\n[elements]\nm = { type = \"mass\", at = \"a\", mass = \"p5000\" }\n";
-  CHECK(scene_of(text).elements[0].values[0] == 5001);
+  CHECK(sound_scene(text).elements[0].values[0] == 5001);
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::records_test

@@ -8,7 +8,8 @@
 #include <string>
 #include <vector>
 
-using namespace rheonet;
+namespace rheonet::test::run_time_expression_test {
+
 using doctest::Approx;
 
 namespace {
@@ -275,3 +276,5 @@ TEST_CASE("run-time expressions: mistakes, with their places") {
   check("x*sqrt(-n)", 2, "`sqrt(-n)` is not a number");
   check("sin(d)", 4, "`sin` takes a pure number, but `d` is a length (m)");
 }
+
+}  // namespace rheonet::test::run_time_expression_test

@@ -7,7 +7,8 @@
 
 #include "core/netlist/read.hpp"
 
-using namespace rheonet;
+namespace rheonet::test::schema_test {
+
 using nlohmann::json;
 
 namespace {
@@ -182,3 +183,5 @@ TEST_CASE("a demo has its four texts, a slider two ends and perhaps a step; a pl
   CHECK(plot["properties"]["log"]["enum"] == json::array({"x", "y", "xy"}));
   CHECK(plot["additionalProperties"] == false);
 }
+
+}  // namespace rheonet::test::schema_test

@@ -4,8 +4,7 @@
 
 #include "tests/support/simulate.hpp"
 
-using namespace rheonet;
-using namespace rheonet::test;
+namespace rheonet::test::shared_test {
 
 TEST_CASE("a shared list is kept once, until one of its copies is changed") {
   Shared<double> one{1, 2, 3};
@@ -47,3 +46,5 @@ stop = 1
   CHECK(changed.elements[1].values[0] == 2);
   CHECK(changed.elements[2].values[0] == 9);
 }
+
+}  // namespace rheonet::test::shared_test

@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-using namespace rheonet;
+namespace rheonet::test::si_units_test {
 
 TEST_CASE("what is known of SI units by their symbols is what UDUNITS-2 says by their names") {
   const std::pair<const char*, const char*> names[] = {
@@ -37,3 +37,5 @@ TEST_CASE("what is no symbol of such a unit is left to UDUNITS-2") {
     CHECK(!si_unit(symbol));
   }
 }
+
+}  // namespace rheonet::test::si_units_test

@@ -4,7 +4,7 @@
 
 #include "tests/netlist/reading.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::signal_tables_test {
 
 namespace {
 
@@ -14,7 +14,7 @@ constexpr double pi = std::numbers::pi;
 template <class Shape>
 Shape shape_of(const std::string& signal, const std::string& domain = "translation",
                const std::filesystem::path& folder = ".") {
-  const Scene scene = scene_of(
+  const Scene scene = sound_scene(
       "domain = \"" + domain + "\"\n[elements]\nm = { type = \"motion\", at = \"a\", velocity = " + signal + " }\n", {},
       folder);
   const auto* shape = std::get_if<Shape>(&scene.elements.at(0).signals.at(0).shape());
@@ -167,7 +167,7 @@ TEST_CASE("signals: a parameter that is constant is told from those that vary") 
 }
 
 TEST_CASE("signals: within a repeat and a model") {
-  const Scene scene = scene_of(R"~(
+  const Scene scene = sound_scene(R"~(
 [models.pusher]
 ports = ["a"]
 parameters = { F = "2 N", f = "3 Hz" }
@@ -187,4 +187,4 @@ r = { type = "force", at = "a", force = { step = "i+1", time = "i" }, repeat = {
   CHECK(last.time == 2);
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::signal_tables_test

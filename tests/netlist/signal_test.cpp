@@ -12,7 +12,8 @@
 #include <string>
 #include <vector>
 
-using namespace rheonet;
+namespace rheonet::test::signal_test {
+
 using doctest::Approx;
 
 namespace {
@@ -434,3 +435,5 @@ TEST_CASE("multiples of an interval are those of the decimal fraction that was t
   CHECK(std::isinf(beat(0, 1e300, 1e10).t));
   CHECK_EQ(beat(0, 1e300, 1e-300).t, doctest::Approx(1));
 }
+
+}  // namespace rheonet::test::signal_test

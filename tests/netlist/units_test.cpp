@@ -8,7 +8,8 @@
 #include <numbers>
 #include <string>
 
-using namespace rheonet;
+namespace rheonet::test::units_test {
+
 using doctest::Approx;
 using std::numbers::pi;
 
@@ -168,3 +169,5 @@ TEST_CASE("names and nesting without end are refused at once") {
         "parentheses are nested too deeply");
   CHECK(refusal(std::string(100000, '(').c_str()).offset == 100);
 }
+
+}  // namespace rheonet::test::units_test

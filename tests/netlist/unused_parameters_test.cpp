@@ -4,7 +4,7 @@
 
 #include "tests/netlist/reading.hpp"
 
-using namespace rheonet;
+namespace rheonet::test::unused_parameters_test {
 
 namespace {
 
@@ -60,3 +60,5 @@ TEST_CASE("a warning names each parameter of a model that its elements do not us
   CHECK_EQ(told("k = 5", "k", model("{ s = 1, r = 2 }", "s*r")), "");
   CHECK_EQ(told("k = 5", "k", model("{ s = \"2*r\", r = 2 }", "s")), "");
 }
+
+}  // namespace rheonet::test::unused_parameters_test

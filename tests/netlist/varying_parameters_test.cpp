@@ -5,7 +5,7 @@
 
 #include "tests/support/simulate.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::varying_parameters_test {
 
 namespace {
 
@@ -86,4 +86,4 @@ TEST_CASE("signals for parameters that take none, and parameters of an element w
   check_message(with("f1 = { type = \"freewheel\", at = \"a\" }"), "3:28", "`f1` is between two nodes, not `at` one", "between = [\"a\", \"ground\"]");
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::varying_parameters_test

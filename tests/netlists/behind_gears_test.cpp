@@ -1,5 +1,6 @@
 // Every scene that comes with the project keeps its claims and closed forms if each of its drives acts through a gear.
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +14,7 @@
 #include "core/result/trajectory.hpp"
 #include "tests/support/transform.hpp"
 
-using namespace rheonet;
+namespace rheonet::test::behind_gears_test {
 
 namespace {
 
@@ -65,3 +66,5 @@ TEST_CASE("every scene keeps its claims and closed forms with its drives behind 
     CHECK(std::abs(summary.missing) <= 10 * scene.accuracy * summary.largest);
   }
 }
+
+}  // namespace rheonet::test::behind_gears_test

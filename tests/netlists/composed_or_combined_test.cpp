@@ -10,7 +10,8 @@
 #include "tests/support/page.hpp"
 #include "tests/support/program.hpp"
 
-using namespace rheonet::test;
+namespace rheonet::test::composed_or_combined_test {
+
 namespace fs = std::filesystem;
 
 namespace {
@@ -97,3 +98,5 @@ TEST_CASE("CFM against SFM beside a dashpot: at least half of the torque apart a
     CHECK(relative >= 0.5);
   }
 }
+
+}  // namespace rheonet::test::composed_or_combined_test

@@ -11,8 +11,7 @@
 
 #include "tests/support/simulate.hpp"
 
-using namespace rheonet;
-using namespace rheonet::test;
+namespace rheonet::test::library_test {
 
 namespace {
 
@@ -190,3 +189,5 @@ TEST_CASE("a springpot is one within its band") {
   CHECK(error_of(0.5, 3, 4).relaxation == doctest::Approx(7.3e-6).epsilon(0.05));
   CHECK(error_of(0.5, 4, 5).relaxation == doctest::Approx(9.7e-8).epsilon(0.05));
 }
+
+}  // namespace rheonet::test::library_test

@@ -18,7 +18,7 @@
 #include "core/result/certify.hpp"
 #include "core/result/trajectory.hpp"
 
-using namespace rheonet;
+namespace rheonet::test::netlists_test {
 
 namespace {
 
@@ -219,3 +219,5 @@ TEST_CASE("stick-slip ends at the velocity that the demo gives") {
     CHECK(sticks_again == (factor < 1));
   }
 }
+
+}  // namespace rheonet::test::netlists_test

@@ -8,7 +8,7 @@
 
 #include "tests/support/scene_file.hpp"
 
-using namespace rheonet::test;
+namespace rheonet::test::thesis_couette_test {
 
 namespace {
 
@@ -93,3 +93,5 @@ TEST_CASE("couette-terms.toml") {
     CHECK(-rows["hold.force"].front() == doctest::Approx(steady).epsilon(1e-6));
   }
 }
+
+}  // namespace rheonet::test::thesis_couette_test

@@ -10,7 +10,7 @@
 
 #include "tests/support/scene_file.hpp"
 
-using namespace rheonet::test;
+namespace rheonet::test::thesis_laws_test {
 
 namespace {
 
@@ -229,3 +229,5 @@ TEST_CASE("davidenkov-wired.toml") {
   const double order = std::log2(errors.front() / errors.back()) / 3;
   CHECK_MESSAGE(std::abs(order - 2) < 0.3, fmt::format("order {:.3f}", order));
 }
+
+}  // namespace rheonet::test::thesis_laws_test

@@ -9,7 +9,7 @@
 
 #include "tests/support/simulate.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::advice_test {
 
 namespace {
 
@@ -119,4 +119,4 @@ TEST_CASE("of a loose node one thing is told") {
            "5: nothing but `k2` is at node `Left`: it carries no force\n");
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::advice_test

@@ -11,8 +11,7 @@
 #include "tests/support/check.hpp"
 #include "tests/support/simulate.hpp"
 
-using namespace rheonet;
-using namespace rheonet::test;
+namespace rheonet::test::effects_test {
 
 namespace {
 
@@ -172,3 +171,5 @@ TEST_CASE("contract: every effect that a component declares can be left out, but
   }
   CHECK(tried > 10);
 }
+
+}  // namespace rheonet::test::effects_test

@@ -9,7 +9,7 @@
 #include "tests/support/scene_builder.hpp"
 #include "tests/support/simulate.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::free_ends_test {
 
 namespace {
 
@@ -134,4 +134,4 @@ TEST_CASE("what else holds a node keeps it, and all on the way to it, from hangi
   }
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::free_ends_test

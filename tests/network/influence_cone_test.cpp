@@ -11,8 +11,7 @@
 #include "tests/support/random.hpp"
 #include "tests/support/simulate.hpp"
 
-using namespace rheonet;
-using namespace rheonet::test;
+namespace rheonet::test::influence_cone_test {
 
 namespace {
 
@@ -156,3 +155,5 @@ TEST_CASE("a mass that is farther away than is told moves less than is told, how
   }
   CHECK_GT(cuts, 10);
 }
+
+}  // namespace rheonet::test::influence_cone_test

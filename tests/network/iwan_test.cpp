@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-namespace rheonet::test {
+namespace rheonet::test::iwan_test {
 
 namespace {
 
@@ -212,4 +212,4 @@ TEST_CASE("a jump of a bundle goes along its law, and what it loses is heat") {
   }
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::iwan_test

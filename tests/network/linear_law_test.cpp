@@ -5,8 +5,7 @@
 
 #include "tests/support/simulate.hpp"
 
-using namespace rheonet;
-using namespace rheonet::test;
+namespace rheonet::test::linear_law_test {
 
 namespace {
 
@@ -67,3 +66,5 @@ TEST_CASE("what an effect that is left out leaves is a law too") {
   REQUIRE(law.has_value());
   CHECK_FALSE(law->spring);
 }
+
+}  // namespace rheonet::test::linear_law_test

@@ -9,7 +9,7 @@
 #include "core/network/network.hpp"
 #include "tests/support/simulate.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::meaningless_test {
 
 namespace {
 
@@ -78,4 +78,4 @@ TEST_CASE("a start displacement means the same at a limit") {
   }
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::meaningless_test

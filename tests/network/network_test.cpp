@@ -6,7 +6,7 @@
 #include "tests/support/scene_builder.hpp"
 #include "tests/support/simulate.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::network_test {
 
 namespace {
 
@@ -164,4 +164,4 @@ TEST_CASE("an element with both ends at one node is refused by name") {
       "element `k1`: both ends are at node `a`, so that it can do nothing; connect one end elsewhere or leave it out");
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::network_test

@@ -6,7 +6,7 @@
 #include "core/network/network.hpp"
 #include "tests/support/scene_builder.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::pairs_test {
 
 namespace {
 
@@ -102,4 +102,4 @@ TEST_CASE("a chain of springs and sliders makes as many pairs as fit") {
   CHECK_EQ(network.nodes(), 3);
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::pairs_test

@@ -4,8 +4,7 @@
 
 #include "tests/support/simulate.hpp"
 
-using namespace rheonet;
-using namespace rheonet::test;
+namespace rheonet::test::parts_test {
 
 TEST_CASE("parts share nothing but ground and given motions") {
   // Two oscillators on one drive; a spring between two drives; masses and forces that act on drives alone are part of none.
@@ -47,3 +46,5 @@ k2 = { type = "spring", between = ["b", "ground"], stiffness = 1 }
                             "k3 = { type = \"spring\", between = [\"c\", \"b\"], stiffness = 1 }\n";
   CHECK_EQ(find_parts(scene_of(two + drive + stop)).count, 1);
 }
+
+}  // namespace rheonet::test::parts_test

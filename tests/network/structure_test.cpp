@@ -13,7 +13,7 @@
 #include "tests/support/random.hpp"
 #include "tests/support/scene_builder.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::structure_test {
 
 namespace {
 
@@ -374,4 +374,4 @@ TEST_CASE("two motions of one node are named, and one of ground is refused") {
   CHECK_EQ(refusal(moved), "motion `motion of ground` moves `ground`, which never moves; prescribe another node");
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::structure_test

@@ -13,8 +13,7 @@
 #include "tests/nonsmooth/slider_network.hpp"
 #include "tests/support/least_norm.hpp"
 
-using namespace rheonet;
-using namespace rheonet::test;
+namespace rheonet::test::boxed_forces_test {
 
 namespace {
 
@@ -226,3 +225,5 @@ TEST_CASE("pieces that do not touch each other are solved as if each were alone"
   CHECK(found.force[3] == doctest::Approx(35e12 / 6).epsilon(1e-15));
   CHECK(solved(small).outcome == Outcome::within);
 }
+
+}  // namespace rheonet::test::boxed_forces_test

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-using namespace rheonet;
+namespace rheonet::test::conductances_test {
 
 namespace {
 
@@ -72,3 +72,5 @@ TEST_CASE("unknowns that nothing joins to what is held have no solution, few or 
   Eigen::VectorXd x = Eigen::VectorXd::Ones(2);
   CHECK(!solve_conductances({{0, 1, 0.7}}, x));
 }
+
+}  // namespace rheonet::test::conductances_test

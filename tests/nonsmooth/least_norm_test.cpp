@@ -11,7 +11,7 @@
 #include <random>
 #include <vector>
 
-using namespace rheonet;
+namespace rheonet::test::least_norm_test {
 
 namespace {
 
@@ -272,3 +272,5 @@ TEST_CASE("least norm: bounds that follow other forces, beside the answer among 
   CHECK(within > 500);
   CHECK(beyond > 300);
 }
+
+}  // namespace rheonet::test::least_norm_test

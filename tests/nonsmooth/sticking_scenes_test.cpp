@@ -11,8 +11,7 @@
 #include "tests/support/check.hpp"
 #include "tests/support/simulate.hpp"
 
-using namespace rheonet;
-using namespace rheonet::test;
+namespace rheonet::test::sticking_scenes_test {
 
 namespace {
 
@@ -146,3 +145,5 @@ TEST_CASE("a set of nodes slips when its load is what the sliders around it can 
     CHECK(momentum == doctest::Approx(excess * (later - time) / 2).epsilon(1e-4));
   }
 }
+
+}  // namespace rheonet::test::sticking_scenes_test

@@ -7,7 +7,8 @@
 #include "tests/support/program.hpp"
 #include "tools/plot/mistake.hpp"
 
-using namespace rheonet;
+namespace rheonet::test::csv_test {
+
 using namespace rheonet::plot;
 using rheonet::test::Folder;
 
@@ -88,3 +89,5 @@ TEST_CASE("what is wrong with a CSV file is said, with its place") {
   CHECK_THROWS_WITH_AS(CsvFile("/no/such.csv", {}), "`/no/such.csv` cannot be read: No such file or directory",
                        Mistake);
 }
+
+}  // namespace rheonet::test::csv_test

@@ -10,6 +10,8 @@
 
 #include "tools/plot/trace.hpp"
 
+namespace rheonet::test::curve_decimation_test {
+
 using namespace rheonet::plot;
 
 namespace {
@@ -175,3 +177,5 @@ TEST_CASE("a trace keeps its extremes in bounded memory, in order") {
   CHECK(trace.points().back().x == 1e-3 * 2'999'999);
   CHECK(std::is_sorted(trace.points().begin(), trace.points().end(), [](Point a, Point b) { return a.x < b.x; }));
 }
+
+}  // namespace rheonet::test::curve_decimation_test

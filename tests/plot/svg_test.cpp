@@ -10,9 +10,9 @@
 #include "tools/plot/mistake.hpp"
 #include "tools/plot/text.hpp"
 
-using namespace rheonet;
+namespace rheonet::test::svg_test {
+
 using namespace rheonet::plot;
-using namespace rheonet::test;
 
 namespace {
 
@@ -261,3 +261,5 @@ TEST_CASE("a million rows make a small figure that has their extremes") {
   CHECK(top == doctest::Approx(340 * 0.05 / 1.1).epsilon(1e-3));
   CHECK(bottom == doctest::Approx(340 * (1 - 0.05 / 1.1)).epsilon(1e-3));
 }
+
+}  // namespace rheonet::test::svg_test

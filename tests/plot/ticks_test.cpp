@@ -6,6 +6,8 @@
 #include <cmath>
 #include <set>
 
+namespace rheonet::test::ticks_test {
+
 using namespace rheonet::plot;
 
 namespace {
@@ -67,3 +69,5 @@ TEST_CASE("ticks of a logarithmic axis are at powers of ten, with small ones bet
   CHECK(labels(logarithmic_ticks(1e-4, 9e-3, 8)) == "10^-4 2·10^-4 . . 5·10^-4 . . . . 10^-3 2·10^-3 . . 5·10^-3 . . . .");
   CHECK(labels(logarithmic_ticks(1e-300, 1e300, 4)) == "10^-300 10^-200 10^-100 1 10^100 10^200 10^300");
 }
+
+}  // namespace rheonet::test::ticks_test

@@ -4,7 +4,8 @@
 
 #include "tools/plot/csv.hpp"
 
-using namespace rheonet;
+namespace rheonet::test::units_test {
+
 using namespace rheonet::plot;
 
 TEST_CASE("an axis has a multiple of its unit that is easy to read") {
@@ -67,3 +68,5 @@ TEST_CASE("a record says by its name what it measures") {
   CHECK(measure_of_record("k.dissipated", Domain::translation)->quantity == "power");
   CHECK(measure_of_record("a.acceleration", Domain::translation)->unit == "m/s^2");
 }
+
+}  // namespace rheonet::test::units_test

@@ -7,7 +7,7 @@
 
 #include "tests/references/reference.hpp"
 
-using namespace rheonet::test;
+namespace rheonet::test::friction_test {
 
 namespace {
 
@@ -107,3 +107,5 @@ output = { every = 0.1 }
     CHECK_LE(rows.scale("frame.force"), 7.5);
   }
 }
+
+}  // namespace rheonet::test::friction_test

@@ -11,7 +11,7 @@
 #include "core/network/component.hpp"
 #include "core/result/trajectory.hpp"
 
-using namespace rheonet;
+namespace rheonet::test::msl_examples_test {
 
 TEST_CASE("examples of the Modelica Standard Library keep their published values") {
   std::vector<std::filesystem::path> files;
@@ -34,3 +34,5 @@ TEST_CASE("examples of the Modelica Standard Library keep their published values
     }
   }
 }
+
+}  // namespace rheonet::test::msl_examples_test

@@ -4,7 +4,7 @@
 
 #include "tests/references/reference.hpp"
 
-using namespace rheonet::test;
+namespace rheonet::test::msl_test {
 
 namespace {
 
@@ -146,3 +146,5 @@ output = { every = 0.0025 }
     check_reference(ours, "end.velocity", 0, *theirs, mass + ".v", 0.0025, 1e-5);
   }
 }
+
+}  // namespace rheonet::test::msl_test

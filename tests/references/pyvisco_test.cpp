@@ -9,7 +9,7 @@
 
 #include "tests/references/reference.hpp"
 
-using namespace rheonet::test;
+namespace rheonet::test::pyvisco_test {
 
 namespace {
 
@@ -99,3 +99,5 @@ TEST_CASE("pyvisco: relaxation over 30 decades") {
   }
   CHECK_GT(points, 400);
 }
+
+}  // namespace rheonet::test::pyvisco_test

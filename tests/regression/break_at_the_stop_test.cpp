@@ -8,7 +8,7 @@
 #include "tests/support/scene_builder.hpp"
 #include "tests/support/simulate.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::break_at_the_stop_test {
 
 TEST_CASE("breaks that differ from the stop, or from each other, by a rounding") {
   constexpr double v = 0.37, k = 137.3, Fc = 1.19, T = 0.31;
@@ -26,4 +26,4 @@ TEST_CASE("breaks that differ from the stop, or from each other, by a rounding")
   }
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::break_at_the_stop_test

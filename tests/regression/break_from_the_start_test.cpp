@@ -10,7 +10,7 @@
 #include "tests/support/check.hpp"
 #include "tests/support/response.hpp"
 
-using namespace rheonet::test;
+namespace rheonet::test::break_from_the_start_test {
 
 // Interval by interval: f_j from j TD on, T f_j' + f_j = B (w - f_(j-1)'/k), as the middle node moves at w - f'/k.
 TEST_CASE("vfm with a delay behind a spring, drawn at a steady rate") {
@@ -39,3 +39,5 @@ output = {{ points = 177 }}
                             {{"v.force", force}, {"k1.force", force}});
   }
 }
+
+}  // namespace rheonet::test::break_from_the_start_test

@@ -8,8 +8,7 @@
 
 #include "tests/support/simulate.hpp"
 
-using namespace rheonet;
-using namespace rheonet::test;
+namespace rheonet::test::breaking_away_together_test {
 
 TEST_CASE("breaking away together: a brake behind two gears with losses holds up to its breakaway force and their losses") {
   // The load at w, the brake at x: each gear, b driving, passes on efficiency_b (m - bearing).
@@ -77,3 +76,5 @@ T = {{ type = "torque", at = "a", torque = {{ sine = {}, frequency = {} }} }}
     for (const double accuracy : {1e-3, 1e-5}) CHECK(largest_error(run(accuracy), exact) <= accuracy);
   }
 }
+
+}  // namespace rheonet::test::breaking_away_together_test

@@ -4,6 +4,8 @@
 #include "tests/support/scene_builder.hpp"
 #include "tests/support/simulate.hpp"
 
+namespace rheonet::test::chirp_corner_test {
+
 // The end of a chirp in position was taken for a step of the size of its rounding, because that was judged without the
 // angle that it had gone through: a dashpot there was said to suffer an impulse.
 TEST_CASE("the end of a fast chirp in position moves nothing in no time") {
@@ -18,3 +20,5 @@ TEST_CASE("the end of a fast chirp in position moves nothing in no time") {
   test::simulate(b.finish(1.72, 10, 1e-6), &summary);
   CHECK_EQ(fmt::format("{}", fmt::join(summary.notes, "\n")), "");
 }
+
+}  // namespace rheonet::test::chirp_corner_test

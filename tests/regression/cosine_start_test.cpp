@@ -6,7 +6,7 @@
 
 #include "tests/support/simulate.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::cosine_start_test {
 
 TEST_CASE("a motion that begins as a cosine, against dry friction") {
   constexpr double Fc = 0.5, X = 0.7;
@@ -35,4 +35,4 @@ output = {{ points = 32 }}
   }
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::cosine_start_test

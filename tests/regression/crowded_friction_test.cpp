@@ -2,7 +2,7 @@
 
 #include "tests/support/simulate.hpp"
 
-using namespace rheonet::test;
+namespace rheonet::test::crowded_friction_test {
 
 namespace {
 
@@ -303,3 +303,5 @@ TEST_CASE("where many frictions meet at their bounds runs end, each record withi
     }
   }
 }
+
+}  // namespace rheonet::test::crowded_friction_test

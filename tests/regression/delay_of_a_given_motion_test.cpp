@@ -5,7 +5,7 @@
 
 #include "tests/support/simulate.hpp"
 
-using namespace rheonet;
+namespace rheonet::test::delay_of_a_given_motion_test {
 
 // Steps were no longer than a delay: one of 1e-10 s made 1e10 of them.
 TEST_CASE("a delay costs no steps, of what is given and of what moves freely") {
@@ -32,3 +32,5 @@ stop = 0.5
   CHECK(run(1e-4, "block") < 2 * steps);
   CHECK(run(1e-10, "block") < 2 * steps);
 }
+
+}  // namespace rheonet::test::delay_of_a_given_motion_test

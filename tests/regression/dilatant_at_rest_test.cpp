@@ -4,6 +4,8 @@
 
 #include "tests/support/simulate.hpp"
 
+namespace rheonet::test::dilatant_at_rest_test {
+
 // A dilatant dashpot hardly resists where it is slow: what steps leave of forces there was taken for a velocity the other way.
 // Friction at the end of the chain turned for nothing, at one accuracy after the other without end.
 TEST_CASE("friction at the end of a chain that relaxes to rest behind a dilatant dashpot does not turn over and over") {
@@ -29,3 +31,5 @@ output = {{ points = 61 }}
     CHECK(summary.events == 4);
   }
 }
+
+}  // namespace rheonet::test::dilatant_at_rest_test

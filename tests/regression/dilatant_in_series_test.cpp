@@ -8,7 +8,7 @@
 
 #include "tests/support/check.hpp"
 
-using namespace rheonet;
+namespace rheonet::test::dilatant_in_series_test {
 
 namespace {
 
@@ -102,3 +102,5 @@ e3 = { type = "slider", between = ["end", "ground"], coulomb = "Fc" }
     test::check_against(run, {"n1.velocity", velocity, std::sqrt((F - Fc) / B2)}, accuracy);
   }
 }
+
+}  // namespace rheonet::test::dilatant_in_series_test

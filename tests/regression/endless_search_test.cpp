@@ -2,7 +2,7 @@
 
 #include "tests/support/simulate.hpp"
 
-using namespace rheonet;
+namespace rheonet::test::endless_search_test {
 
 // The margin of an event was the least number there is: the integrator's search for its instant divided by what underflowed,
 // went to t = inf, and stayed there.
@@ -27,3 +27,5 @@ stop = 0.8106426870647363
 )"), &summary);
   CHECK(summary.steps < 20000);
 }
+
+}  // namespace rheonet::test::endless_search_test

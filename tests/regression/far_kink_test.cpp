@@ -4,6 +4,8 @@
 
 #include "tests/support/simulate.hpp"
 
+namespace rheonet::test::far_kink_test {
+
 // Where the load has a corner the velocities are looked for anew. Two ends that move alike but for rounding meet after 10^21 of
 // a step: from there back the search never came to the solution, and friction held at its bound was let go, over and over.
 TEST_CASE("friction held at its bound stays there over a corner of its load") {
@@ -29,3 +31,5 @@ output = { points = 81 }
   }
   CHECK(held > 20);
 }
+
+}  // namespace rheonet::test::far_kink_test

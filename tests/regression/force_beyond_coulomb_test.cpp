@@ -4,6 +4,8 @@
 #include "tests/support/scene_builder.hpp"
 #include "tests/support/simulate.hpp"
 
+namespace rheonet::test::force_beyond_coulomb_test {
+
 // A force that rises to the Coulomb level of the only element that holds it: the displacement becomes infinite when it
 // is reached, at 1.3 s. The run went on for ever in steps of the rounding of time, each of them "accepted" after a
 // restart.
@@ -24,3 +26,5 @@ TEST_CASE("a displacement that becomes infinite ends the run, with the time") {
                     message.find("every element there has come to a constant force") != std::string::npos;
   CHECK_MESSAGE((told && message.find("`a`") != std::string::npos), message);
 }
+
+}  // namespace rheonet::test::force_beyond_coulomb_test

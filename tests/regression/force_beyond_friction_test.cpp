@@ -5,6 +5,8 @@
 
 #include "tests/support/simulate.hpp"
 
+namespace rheonet::test::force_beyond_friction_test {
+
 // Forces a little above what a slider and an sfm take together: the hundredth that was missing was left to slopes that
 // are there to decide among equals, and the refusal came from the equations, without the elements.
 TEST_CASE("a force half a percent beyond what all friction takes is refused with its names, one below runs") {
@@ -32,3 +34,5 @@ accuracy = 1e-6
     }
   }
 }
+
+}  // namespace rheonet::test::force_beyond_friction_test

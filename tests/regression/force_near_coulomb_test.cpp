@@ -7,7 +7,7 @@
 
 #include "tests/support/simulate.hpp"
 
-using namespace rheonet::test;
+namespace rheonet::test::force_near_coulomb_test {
 
 // A force within round-off of the Coulomb force determines the deflection to only a few digits. Steps became so short that a run would have
 // taken hours. The exponent 1 gives f = Fc (1 - exp(-sigma x/Fc)).
@@ -65,3 +65,5 @@ record = ["far.force", "lag.force"]
   }
   CHECK(rows.scale("far.force") == doctest::Approx(1).epsilon(1e-9));
 }
+
+}  // namespace rheonet::test::force_near_coulomb_test

@@ -7,7 +7,7 @@
 #include "tests/support/check.hpp"
 #include "tests/support/simulate.hpp"
 
-using namespace rheonet;
+namespace rheonet::test::force_where_it_rests_test {
 
 // The force of a slider that has come to rest is a small difference of much larger forces. Its error was as large as their tolerance.
 TEST_CASE("where friction ends a swing of many times its force that force is as accurate as the swing") {
@@ -51,3 +51,5 @@ ball = { position = 5.1, velocity = -1.9 }
                                               2.687, 20001),
                                 {{"stop.force", force}});
 }
+
+}  // namespace rheonet::test::force_where_it_rests_test

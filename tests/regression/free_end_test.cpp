@@ -5,7 +5,7 @@
 
 #include "tests/support/check.hpp"
 
-using namespace rheonet;
+namespace rheonet::test::free_end_test {
 
 // Nothing acts on the free end, so that the only force scale there was came of rounding: the run crawled after it.
 TEST_CASE("the free end of friction goes along without a force") {
@@ -24,3 +24,5 @@ q = { type = "cfm", between = ["a", "b"], stiffness = 3.1, damping = 8.3, coulom
                                   {{"b.position", position}, {"q.force", [](double) { return 0.0; }, 0.6}});
   }
 }
+
+}  // namespace rheonet::test::free_end_test

@@ -10,7 +10,7 @@
 
 #include "tests/support/simulate.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::friction_at_transmissions_test {
 
 namespace {
 
@@ -121,4 +121,4 @@ stop = 3
   }
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::friction_at_transmissions_test

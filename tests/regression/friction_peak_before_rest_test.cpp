@@ -9,7 +9,7 @@
 
 #include "tests/support/simulate.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::friction_peak_before_rest_test {
 
 namespace {
 
@@ -69,4 +69,4 @@ output = {{ points = {} }}
   }
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::friction_peak_before_rest_test

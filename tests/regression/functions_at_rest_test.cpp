@@ -7,7 +7,7 @@
 
 #include "tests/support/simulate.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::functions_at_rest_test {
 
 TEST_CASE("functions of the velocity of a node that sticks are those of 0") {
   const RunTable rows = simulate(R"toml([elements]
@@ -78,4 +78,4 @@ stop = "2 s"
   CHECK(rows.scale("x.velocity") > 0.1);
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::functions_at_rest_test

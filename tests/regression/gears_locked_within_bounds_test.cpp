@@ -11,7 +11,7 @@
 
 #include "tests/support/simulate.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::gears_locked_within_bounds_test {
 
 namespace {
 
@@ -144,4 +144,4 @@ TEST_CASE("gears that brakes and freewheels lock together with losses") {
   }
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::gears_locked_within_bounds_test

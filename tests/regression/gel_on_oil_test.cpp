@@ -7,7 +7,7 @@
 #include "tests/support/reference_integrator.hpp"
 #include "tests/support/simulate.hpp"
 
-using namespace rheonet;
+namespace rheonet::test::gel_on_oil_test {
 
 namespace {
 
@@ -70,3 +70,5 @@ TEST_CASE("a pseudoplastic gel with friction beside it, on oil, starts from rest
     }
   }
 }
+
+}  // namespace rheonet::test::gel_on_oil_test

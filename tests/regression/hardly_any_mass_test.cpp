@@ -6,7 +6,7 @@
 #include "tests/support/scene_builder.hpp"
 #include "tests/support/simulate.hpp"
 
-using namespace rheonet;
+namespace rheonet::test::hardly_any_mass_test {
 
 // The force of a dashpot that drags a small mass was computed from the difference of two nearly equal velocities: from their round-off and
 // iteration errors.
@@ -51,3 +51,5 @@ TEST_CASE("a mass between a spring and a dashpot that is hardly any begins as no
     }
   }
 }
+
+}  // namespace rheonet::test::hardly_any_mass_test

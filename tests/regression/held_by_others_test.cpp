@@ -7,7 +7,7 @@
 #include "tests/support/check.hpp"
 #include "tests/support/simulate.hpp"
 
-using namespace rheonet;
+namespace rheonet::test::held_by_others_test {
 
 namespace {
 
@@ -130,3 +130,5 @@ e6 = { type = "cfm", between = ["FRAME", "n2"], stiffness = 30.42, coulomb = 0.1
     }
   }
 }
+
+}  // namespace rheonet::test::held_by_others_test

@@ -6,7 +6,7 @@
 
 #include "tests/support/simulate.hpp"
 
-using namespace rheonet;
+namespace rheonet::test::late_start_test {
 
 // A force that starts smoothly and late. The first scales are estimated from the motion in the first moments, which was so small that no step
 // longer than the round-off of the time could resolve it.
@@ -31,3 +31,5 @@ TEST_CASE("a force that sets in late moves masses on a pseudoplastic dashpot as 
     }
   }
 }
+
+}  // namespace rheonet::test::late_start_test

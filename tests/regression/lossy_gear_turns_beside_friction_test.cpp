@@ -5,7 +5,7 @@
 
 #include "tests/support/simulate.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::lossy_gear_turns_beside_friction_test {
 
 TEST_CASE("a gear with losses whose driving side changes beside a brake that sticks") {
   for (int k = 0; k < 20; ++k) {
@@ -33,4 +33,4 @@ output = {{ points = 41 }}
   }
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::lossy_gear_turns_beside_friction_test

@@ -3,7 +3,7 @@
 
 #include "tests/support/simulate.hpp"
 
-using namespace rheonet::test;
+namespace rheonet::test::nearly_equal_sliders_test {
 
 namespace {
 
@@ -41,3 +41,5 @@ TEST_CASE("sliders in series that differ by little") {
     CHECK(velocity_between(more, "3.7e8") == doctest::Approx(0.3));
   }
 }
+
+}  // namespace rheonet::test::nearly_equal_sliders_test

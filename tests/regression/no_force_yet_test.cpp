@@ -6,6 +6,8 @@
 #include "tests/support/simulate.hpp"
 #include "tests/support/transform.hpp"
 
+namespace rheonet::test::no_force_yet_test {
+
 // Where no force was at work yet a power law was judged by what it does at one newton: in some units a rounding, in others
 // beyond all bounds.
 TEST_CASE("a run that begins without any force is the same in other units") {
@@ -36,3 +38,5 @@ e3 = { type = "cfm", between = ["ground", "end"], stiffness = 12.24, damping = 2
 )",
         "n1.position", {.length = 1e-9, .time = 1, .force = 1e9});
 }
+
+}  // namespace rheonet::test::no_force_yet_test

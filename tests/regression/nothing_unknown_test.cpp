@@ -4,7 +4,7 @@
 
 #include "tests/support/simulate.hpp"
 
-using namespace rheonet;
+namespace rheonet::test::nothing_unknown_test {
 
 // Where every motion is given there is no error that a step could make, and yet each stretch began with short ones.
 TEST_CASE("with nothing unknown a run takes one step from each reversal to the next") {
@@ -25,3 +25,5 @@ output = { every = 0.0625 }
   const std::size_t row = rows.time().size() - 13;  // 0.75 s before the end: 0.25 s after a turn at the top
   CHECK(rows["i1.force"][row] == doctest::Approx(-Fc + (Fc + top) * std::exp(-down)).epsilon(1e-12));
 }
+
+}  // namespace rheonet::test::nothing_unknown_test

@@ -7,7 +7,7 @@
 
 #include "tests/support/simulate.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::on_a_moving_base_test {
 
 namespace {
 
@@ -75,4 +75,4 @@ output = { points = 61 }
   CHECK(end.refusal.find("`e3` is at the largest force that it can take") != std::string::npos);
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::on_a_moving_base_test

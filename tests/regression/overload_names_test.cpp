@@ -4,6 +4,8 @@
 
 #include "tests/support/simulate.hpp"
 
+namespace rheonet::test::overload_names_test {
+
 // Which nodes a convex problem left without a bound was a matter of rounding: a spring was said to be at the largest force that
 // it can take, or elements at a fraction of theirs, and others at another accuracy. The loads and the bounds tell.
 TEST_CASE("what is overloaded is told by the elements that bear the largest force they can take, at any accuracy") {
@@ -73,3 +75,5 @@ stop = 2.5
     CHECK_MESSAGE(second.find("nodes `n2`, `n3`: `e5`, `e10` are at the largest force that they can take") != std::string::npos, second);
   }
 }
+
+}  // namespace rheonet::test::overload_names_test

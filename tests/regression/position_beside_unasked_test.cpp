@@ -8,7 +8,7 @@
 
 #include "tests/support/simulate.hpp"
 
-using namespace rheonet::test;
+namespace rheonet::test::position_beside_unasked_test {
 
 TEST_CASE("regression: a slider that breaks away begins where it was, whatever else is recorded") {
   const std::string scene = R"([elements]
@@ -41,3 +41,5 @@ record = [)";
   CHECK_GT(largest, 0.01);
   CHECK(apart <= 1e-6 * largest);
 }
+
+}  // namespace rheonet::test::position_beside_unasked_test

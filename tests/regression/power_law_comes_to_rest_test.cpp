@@ -5,7 +5,7 @@
 #include "tests/support/check.hpp"
 #include "tests/support/scene_builder.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::power_law_comes_to_rest_test {
 
 // The velocity of a dilatant dashpot near rest is a root of its force. The round-off of the force kept it moving back and forth.
 TEST_CASE("a spring relaxes through a dilatant dashpot, and comes to rest in a finite time") {
@@ -53,4 +53,4 @@ output = { points = 41 }
   }
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::power_law_comes_to_rest_test

@@ -5,6 +5,8 @@
 #include "tests/support/scene_builder.hpp"
 #include "tests/support/simulate.hpp"
 
+namespace rheonet::test::power_law_from_rest_test {
+
 // A network that starts from rest with a drive whose velocity begins at 0 has not moved yet to first order. Where a power
 // law is infinitely steep at rest the network then seemed to be fast without bounds, and tolerances came to 1e-37.
 TEST_CASE("a dilatant dashpot behind springs that creep, from rest and from a moving frame") {
@@ -29,3 +31,5 @@ TEST_CASE("a dilatant dashpot behind springs that creep, from rest and from a mo
     CHECK(std::abs(other["e3.force"][i] - one["e3.force"][i]) < 10 * accuracy * one.scale("e3.force"));
   }
 }
+
+}  // namespace rheonet::test::power_law_from_rest_test

@@ -4,6 +4,8 @@
 
 #include "tests/support/simulate.hpp"
 
+namespace rheonet::test::power_laws_in_parallel_test {
+
 // A dilatant dashpot beside a pseudoplastic one, at a massless node: solved for its force, which near rest is far below
 // every tolerance where its velocity is not, it took 40000 steps over one reversal of the force.
 TEST_CASE("a dilatant dashpot beside a pseudoplastic one, under a force that reverses") {
@@ -29,3 +31,5 @@ output = { points = 61 }
     CHECK(std::abs(std::copysign(force, w) - run["drive.force"][i]) < 1e-6 * run.scale("drive.force"));
   }
 }
+
+}  // namespace rheonet::test::power_laws_in_parallel_test

@@ -6,7 +6,7 @@
 #include "tests/support/scene_builder.hpp"
 #include "tests/support/simulate.hpp"
 
-using namespace rheonet;
+namespace rheonet::test::power_laws_in_series_test {
 
 // Near rest the force of a power law was linearised, but not its inverse, which is solved at a massless node. Two dashpots in series, set in
 // motion from rest, ended the run ("changes faster than double precision can follow").
@@ -60,3 +60,5 @@ TEST_CASE("velocity and force of a power law are inverse to each other, softened
     }
   }
 }
+
+}  // namespace rheonet::test::power_laws_in_series_test

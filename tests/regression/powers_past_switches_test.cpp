@@ -9,7 +9,7 @@
 #include "core/network/error.hpp"
 #include "tests/support/simulate.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::powers_past_switches_test {
 
 namespace {
 
@@ -128,4 +128,4 @@ TEST_CASE("a root of a magnitude passes its zero, and a root of what is negative
   CHECK_THROWS_WITH_AS(simulate(netlist("w*sqrt(w)"), 1e-6), doctest::Contains("has no finite value"), SimulationError);
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::powers_past_switches_test

@@ -5,7 +5,7 @@
 
 #include "tests/support/simulate.hpp"
 
-using namespace rheonet::test;
+namespace rheonet::test::prandtl_beyond_its_bound_test {
 
 // So stiff that the last digit of the displacement is a force: where the law yields the event is found so much too late, and
 // the force went beyond the bound.
@@ -24,3 +24,5 @@ record = ["i0.force"]
   CHECK(*most == 1.3);
   CHECK(*least == -1.3);
 }
+
+}  // namespace rheonet::test::prandtl_beyond_its_bound_test

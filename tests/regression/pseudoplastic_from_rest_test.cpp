@@ -4,7 +4,7 @@
 
 #include "tests/support/check.hpp"
 
-using namespace rheonet;
+namespace rheonet::test::pseudoplastic_from_rest_test {
 
 // At rest a pseudoplastic dashpot has an infinite slope. Next to a creeping element the mode selection could not distinguish its forces from
 // round-off ("it cannot be decided which sliders begin to slip", without any slider).
@@ -89,3 +89,5 @@ m4 = { type = "mass", at = "n4", mass = 0.02059 }
                                            0.8194, 61),
                              1e-6, {"e7.force", "n3.velocity", "n4.velocity", "e8.force"}, 1e-9);
 }
+
+}  // namespace rheonet::test::pseudoplastic_from_rest_test

@@ -4,6 +4,8 @@
 
 #include "tests/support/simulate.hpp"
 
+namespace rheonet::test::rate_beyond_numbers_test {
+
 // A rate that overflows was reported as a balance of forces that cannot be found. Elimination spreads the overflow to all rates of the same
 // system, and the error named the first unknown, not the unknown whose equation causes it.
 TEST_CASE("a rate beyond the range of double precision is told, with the node whose rate it is") {
@@ -37,3 +39,5 @@ c = { type = "dashpot", between = ["a", "ground"], damping = 2e-100 }
 )" + end) == "");
   }
 }
+
+}  // namespace rheonet::test::rate_beyond_numbers_test

@@ -4,6 +4,8 @@
 #include "tests/support/simulate.hpp"
 #include "tests/support/transform.hpp"
 
+namespace rheonet::test::rate_in_any_units_test {
+
 // The rate of a network was found from a small change of its state, as large as its largest unknown said, whatever its kind:
 // where velocities are large numbers, a deflection went far beyond its law.
 TEST_CASE("a network is as fast in units in which velocities are large numbers") {
@@ -26,3 +28,5 @@ output = { points = 11 }
     CHECK(seen["n1.position"][i] / scale == doctest::Approx(run["n1.position"][i] / run.scale("n1.position")).epsilon(1e-5));
   }
 }
+
+}  // namespace rheonet::test::rate_in_any_units_test

@@ -4,7 +4,7 @@
 
 #include "tests/support/simulate.hpp"
 
-using namespace rheonet;
+namespace rheonet::test::release_in_series_test {
 
 // A cfm with exponent 0 had slope 0 at the point where it left its bound. So its ends seemed to move freely there, the margin of its events was
 // as large as that velocity, and the next reversal was missed.
@@ -31,3 +31,5 @@ output = { points = 401 }
     CHECK(run["e2.velocity"][row] == doctest::Approx(side * 0.672).epsilon(1e-9));
   }
 }
+
+}  // namespace rheonet::test::release_in_series_test

@@ -8,7 +8,7 @@
 
 #include "tests/support/simulate.hpp"
 
-using namespace rheonet::test;
+namespace rheonet::test::rest_at_its_bound_test {
 
 namespace {
 
@@ -88,3 +88,5 @@ record = ["slider.force", "friction.force", "spring.force"]
     }
   }
 }
+
+}  // namespace rheonet::test::rest_at_its_bound_test

@@ -3,7 +3,7 @@
 #include "tests/support/check.hpp"
 #include "tests/support/simulate.hpp"
 
-using namespace rheonet;
+namespace rheonet::test::rest_beside_a_massless_node_test {
 
 // A slider whose ends have come to relative rest was not allowed to continue in its earlier direction, not even if it had broken away at the
 // same instant, or if only higher derivatives of the drive determine its direction. The slider alternated between stick and slip.
@@ -50,3 +50,5 @@ m1 = { type = "mass", at = "n1", mass = 0.01259 }
     CHECK(summary.restarts == 18);
   }
 }
+
+}  // namespace rheonet::test::rest_beside_a_massless_node_test

@@ -5,7 +5,7 @@
 #include "tests/support/check.hpp"
 #include "tests/support/simulate.hpp"
 
-using namespace rheonet;
+namespace rheonet::test::rest_between_motions_test {
 
 namespace {
 
@@ -60,3 +60,5 @@ TEST_CASE("a slider at rest between two motions has no force, whatever is beside
     }
   }
 }
+
+}  // namespace rheonet::test::rest_between_motions_test

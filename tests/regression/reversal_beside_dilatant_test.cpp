@@ -4,7 +4,7 @@
 
 #include "tests/support/simulate.hpp"
 
-using namespace rheonet::test;
+namespace rheonet::test::reversal_beside_dilatant_test {
 
 // All starts without force, and nothing happens until the friction reverses: by then the forces have a rounding, of which the
 // dilatant dashpot at rest makes a velocity that is far above the tolerance. As long as it was known at starts alone steps
@@ -29,3 +29,5 @@ record = ["post.force", "dry.force", "water.force", "soft.force", "stiff.force",
     CHECK(largest_error(simulate(scene, accuracy), best) <= 2 * accuracy);
   }
 }
+
+}  // namespace rheonet::test::reversal_beside_dilatant_test

@@ -6,7 +6,7 @@
 #include "tests/support/check.hpp"
 #include "tests/support/simulate.hpp"
 
-using namespace rheonet;
+namespace rheonet::test::reversal_beside_drag_test {
 
 // The force of a dilatant dashpot near rest tells hardly anything of its velocity. At a node without mass that leaves a large
 // rounding of the velocity; a mass has its own, and friction there turns where it does: it turned 30 ns late, at the tightest
@@ -30,3 +30,5 @@ air = { type = "dashpot", between = ["n1", "ground"], damping = "drag", flow_ind
     }
   }
 }
+
+}  // namespace rheonet::test::reversal_beside_drag_test

@@ -4,7 +4,7 @@
 
 #include "tests/support/simulate.hpp"
 
-using namespace rheonet::test;
+namespace rheonet::test::reversal_beside_pseudoplastic_test {
 
 // A dashpot with a flow index below 1 is solved for its force. When friction in parallel reverses, the velocities of its ends are equal up to
 // round-off, which the law turns into a force. This force counted as an imbalance and forced the friction to rest, and then nothing determined
@@ -29,3 +29,5 @@ record = ["fixing.force", "joint.force", "gel.force", "rubber.force", "oil.force
     CHECK(largest_error(simulate(scene, accuracy), best) <= 2 * accuracy);
   }
 }
+
+}  // namespace rheonet::test::reversal_beside_pseudoplastic_test

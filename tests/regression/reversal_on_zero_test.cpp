@@ -5,6 +5,8 @@
 #include "core/dae/inputs.hpp"
 #include "tests/support/scene_builder.hpp"
 
+namespace rheonet::test::reversal_on_zero_test {
+
 // The search for a reversal that met the zero of the velocity exactly, as it does on a straight line, went on from
 // there by a thousandth of the stretch and reported that instant.
 TEST_CASE("a reversal that a search meets exactly is where it is") {
@@ -17,3 +19,5 @@ TEST_CASE("a reversal that a search meets exactly is where it is") {
   inputs.enter(0);
   CHECK_EQ(inputs.next_reversal(0, -1, 0, 3), 0.5);
 }
+
+}  // namespace rheonet::test::reversal_on_zero_test

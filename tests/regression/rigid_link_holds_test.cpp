@@ -9,7 +9,7 @@
 
 #include "tests/support/simulate.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::rigid_link_holds_test {
 
 TEST_CASE("a rigid link to what is moved holds through the events of others, either way round") {
   for (const char* ends : {"\"a\", \"b\"", "\"b\", \"a\""}) {
@@ -57,4 +57,4 @@ stop = 1.7
   CHECK_EQ(between("velocity = { cosine = \"2*3.14159265358979324*1.3*0.2\", frequency = 1.3 }", "position = { sine = 0.2, frequency = 1.3 }"), "");
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::rigid_link_holds_test

@@ -5,7 +5,7 @@
 
 #include "tests/support/simulate.hpp"
 
-using namespace rheonet;
+namespace rheonet::test::run_of_no_time_test {
 
 // The time looked ahead at the start was a share of the run's, however short: springs between massless nodes were lost
 // beside dashpots, and "it cannot be decided which sliders begin to slip" was said of a network without any.
@@ -29,3 +29,5 @@ stop = {}
     CHECK(std::abs(run["c.force"].back() / run["k2.force"].back() - 1) < 1e-9);
   }
 }
+
+}  // namespace rheonet::test::run_of_no_time_test

@@ -2,7 +2,7 @@
 
 #include "tests/support/simulate.hpp"
 
-using namespace rheonet::test;
+namespace rheonet::test::slow_beside_fast_test {
 
 // At each event velocities below 1e-14 of the fastest were taken for rounding, and a mass that was so slow stopped.
 TEST_CASE("what is slow is not stopped by an event where others are fast") {
@@ -22,3 +22,5 @@ stop = 1
   CHECK(rows["slow.velocity"].back() == doctest::Approx(3.1e-9 - 1.1e-9 / 0.7).epsilon(1e-6));
   CHECK(rows["fast.velocity"].back() == 1e9);
 }
+
+}  // namespace rheonet::test::slow_beside_fast_test

@@ -4,7 +4,7 @@
 
 #include "tests/support/simulate.hpp"
 
-using namespace rheonet::test;
+namespace rheonet::test::small_displacement_test {
 
 // The displacement of an assembly, or of a dashpot, was the difference of two positions also where a spring beside it knew it
 // better: 2.7e-12 m behind a node that has moved by metres kept four digits.
@@ -33,3 +33,5 @@ record = ["creep.stiff.displacement", "creep.stiff.dashpot1.displacement", "cree
   CHECK(rows["creep.soft.displacement"].back() == doctest::Approx(2.7 * (1 - std::exp(-4 / 1.3))).epsilon(1e-9));
   CHECK(rows["mirror.displacement"].back() == doctest::Approx(-(12.4 - 0.7) * 1e-12).epsilon(1e-9));
 }
+
+}  // namespace rheonet::test::small_displacement_test

@@ -5,7 +5,7 @@
 
 #include "tests/support/simulate.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::smooth_table_from_rest_test {
 
 TEST_CASE("a motion along a smooth table that begins at rest, with friction that depends on the velocity") {
   const RunTable rows = simulate(R"([elements]
@@ -24,4 +24,4 @@ stop = 2
   }
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::smooth_table_from_rest_test

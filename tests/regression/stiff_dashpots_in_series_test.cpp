@@ -6,7 +6,7 @@
 
 #include "tests/support/simulate.hpp"
 
-using namespace rheonet::test;
+namespace rheonet::test::stiff_dashpots_in_series_test {
 
 // The force of a dashpot far stiffer than its neighbour was taken from the difference of two velocities that agree in all but
 // the last digits.
@@ -36,3 +36,5 @@ output = {{ points = 53 }}
     }
   }
 }
+
+}  // namespace rheonet::test::stiff_dashpots_in_series_test

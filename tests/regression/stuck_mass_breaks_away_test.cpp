@@ -8,7 +8,7 @@
 
 #include "tests/analytic/slider_checks.hpp"
 
-using namespace rheonet::test;
+namespace rheonet::test::stuck_mass_breaks_away_test {
 
 TEST_CASE("regression: a mass that a drive takes along breaks away from it") {
   const double m = 1.03, Fc = 1.91, F0 = 0.41, speed = 0.53, omega = 2 * 3.14159265358979323846 * 0.83;
@@ -43,3 +43,5 @@ output = {{ points = 2, events = true }}
   CHECK_LE(std::abs(found[0] - stick), 1e-8);
   CHECK_LE(std::abs(found[1] - slip), 1e-8);
 }
+
+}  // namespace rheonet::test::stuck_mass_breaks_away_test

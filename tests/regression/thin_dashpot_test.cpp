@@ -6,7 +6,7 @@
 
 #include "tests/support/simulate.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::thin_dashpot_test {
 
 TEST_CASE("two Kelvin-Voigt elements in series creep each by itself, however thin one dashpot is") {
   constexpr double F = 1.3, k = 2, c = 2e3;
@@ -33,4 +33,4 @@ output = {{ points = 51 }}
   }
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::thin_dashpot_test

@@ -5,6 +5,8 @@
 #include "tests/support/scene_builder.hpp"
 #include "tests/support/simulate.hpp"
 
+namespace rheonet::test::thin_power_law_test {
+
 // A light mass dragged along by a strongly pseudoplastic dashpot lags by a velocity that is far smaller than its own:
 // w = (m a/B)^(1/n). Taken as a difference of the two, it has too few digits for the force B w^n.
 TEST_CASE("the force of a pseudoplastic dashpot on a light mass") {
@@ -22,3 +24,5 @@ TEST_CASE("the force of a pseudoplastic dashpot on a light mass") {
                   "missing " << summary.missing << " of " << summary.largest);
   }
 }
+
+}  // namespace rheonet::test::thin_power_law_test

@@ -7,7 +7,7 @@
 
 #include "tests/support/simulate.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::trains_beside_freewheels_and_brakes_test {
 
 TEST_CASE("start velocities that a gear and a freewheel together change have one common momentum") {
   const std::string planetary = R"([elements]
@@ -98,4 +98,4 @@ output = { points = 4 }
   }
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::trains_beside_freewheels_and_brakes_test

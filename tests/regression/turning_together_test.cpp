@@ -5,7 +5,7 @@
 
 #include "tests/support/simulate.hpp"
 
-using namespace rheonet;
+namespace rheonet::test::turning_together_test {
 
 // `e5` and `e8` go between the same two points while `e9` rests. Each had a reversal of its own, and the first to turn was
 // turned back by the second, without end.
@@ -115,3 +115,5 @@ output = { points = 61 }
 )",
                15);
 }
+
+}  // namespace rheonet::test::turning_together_test

@@ -6,7 +6,7 @@
 
 #include "tests/support/simulate.hpp"
 
-using namespace rheonet::test;
+namespace rheonet::test::vanishing_bounds_test {
 
 // Sliders stick together while the bound of one of them falls to 0. Almost no force acts at a node then, and its balance
 // cannot be better than the round-off of the larger forces beside it: "the forces cannot be balanced" was the answer.
@@ -81,3 +81,5 @@ record = ["a.velocity", "b.velocity", "w1.force", "w2.force"]
     CHECK(rows["w2.force"][i] < 1e-5);
   }
 }
+
+}  // namespace rheonet::test::vanishing_bounds_test

@@ -6,7 +6,7 @@
 
 #include "tests/support/simulate.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::velocity_between_steps_test {
 
 // Nothing limited the steps on account of a velocity that follows from time alone, through a dashpot to a drive or from a force:
 // between steps it was taken from a polynomial, and was off by percents.
@@ -74,4 +74,4 @@ record = ["s.displacement"]
   }
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::velocity_between_steps_test

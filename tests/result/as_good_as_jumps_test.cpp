@@ -5,7 +5,7 @@
 #include "core/result/reference_solution.hpp"
 #include "tests/support/simulate.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::as_good_as_jumps_test {
 
 namespace {
 
@@ -55,4 +55,4 @@ TEST_CASE("what is over within a hundredth of the time to the events around it i
   }
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::as_good_as_jumps_test

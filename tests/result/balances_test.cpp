@@ -9,7 +9,7 @@
 #include "core/result/balances.hpp"
 #include "tests/support/simulate.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::balances_test {
 
 namespace {
 
@@ -104,4 +104,4 @@ record = ["k.force", "mid.velocity"]
   CHECK(Balances(scene).scene().records.size() == 2);
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::balances_test

@@ -20,7 +20,7 @@
 #include "tests/support/simulate.hpp"
 #include "tests/tools/scenes.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::certify_test {
 
 namespace {
 
@@ -285,4 +285,4 @@ record = ["a.position"]
   CHECK(certificate.errors.front().largest >= worst / 2);
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::certify_test

@@ -12,7 +12,7 @@
 #include "core/result/claims.hpp"
 #include "core/result/run.hpp"
 
-using namespace rheonet;
+namespace rheonet::test::claims_test {
 
 namespace {
 
@@ -289,3 +289,5 @@ record = ["c.force"]
     }
   }
 }
+
+}  // namespace rheonet::test::claims_test

@@ -13,7 +13,7 @@
 #include "core/network/error.hpp"
 #include "tests/support/random.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::csv_test {
 
 namespace {
 
@@ -134,4 +134,4 @@ TEST_CASE("a file that cannot be written stops the run once, with the reason") {
   std::fclose(full);
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::csv_test

@@ -8,7 +8,7 @@
 #include "tests/support/scene_builder.hpp"
 #include "tests/support/simulate.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::energy_test {
 
 namespace {
 
@@ -103,4 +103,4 @@ TEST_CASE("supplied power agrees with the recorded forces and velocities") {
   CHECK_EQ(s.stored, doctest::Approx(energy(intervals) - energy(0)).epsilon(1e-7));
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::energy_test

@@ -14,7 +14,7 @@
 #include "tests/support/scene_builder.hpp"
 #include "tests/support/simulate.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::events_test {
 
 namespace {
 
@@ -198,4 +198,4 @@ TEST_CASE("events that cannot be written end the run") {
                        "the events cannot be written: No space left on device", SimulationError);
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::events_test

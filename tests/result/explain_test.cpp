@@ -6,8 +6,8 @@
 
 #include "tests/support/simulate.hpp"
 
-using namespace rheonet;
-using namespace rheonet::test;
+namespace rheonet::test::explain_test {
+
 using Names = std::vector<std::string>;
 
 namespace {
@@ -135,3 +135,5 @@ TEST_CASE("a run that is over while it is tried is predicted to the step") {
   CHECK(cost.steps > 50);
   CHECK(cost.seconds() > 0);
 }
+
+}  // namespace rheonet::test::explain_test

@@ -8,8 +8,7 @@
 #include "core/result/partition.hpp"
 #include "tests/support/simulate.hpp"
 
-using namespace rheonet;
-using namespace rheonet::test;
+namespace rheonet::test::in_parts_test {
 
 namespace {
 
@@ -261,3 +260,5 @@ output = { points = 21 }
   const RunTable rows = simulate(scene);
   for (std::size_t k = 0; k < rows.time().size(); ++k) CHECK_EQ(rows["on_ground.force"][k], doctest::Approx(1.7 * std::sin(1.2 * std::numbers::pi * rows.time()[k])));
 }
+
+}  // namespace rheonet::test::in_parts_test

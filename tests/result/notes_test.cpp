@@ -9,7 +9,7 @@
 #include "tests/support/scene_builder.hpp"
 #include "tests/support/simulate.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::notes_test {
 
 namespace {
 
@@ -143,4 +143,4 @@ stop = 1
   CHECK_EQ(told(", f0 = \"0.14 N\""), 0);
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::notes_test

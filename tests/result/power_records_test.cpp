@@ -13,7 +13,7 @@
 #include "core/result/run.hpp"
 #include "tests/support/simulate.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::power_records_test {
 
 namespace {
 
@@ -269,4 +269,4 @@ record = ["a.velocity", "k1.energy", "s1.dissipated", "m1.energy", { name = "hea
   run_certified(scene, {});
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::power_records_test

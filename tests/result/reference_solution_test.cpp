@@ -8,7 +8,7 @@
 #include "core/result/reference_solution.hpp"
 #include "tests/support/simulate.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::reference_solution_test {
 
 namespace {
 
@@ -113,4 +113,4 @@ record = ["k.force", "push.force"]
   CHECK(closely.instants[0].before[0] == doctest::Approx(closely.instants[0].after[0]).epsilon(1e-12));
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::reference_solution_test

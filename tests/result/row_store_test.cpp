@@ -10,7 +10,7 @@
 
 #include "core/result/csv.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::row_store_test {
 namespace {
 
 double value(std::size_t run, std::size_t row, std::size_t column) { return static_cast<double>(run * 1'000'000'000 + row * 10 + column) / 7; }
@@ -74,4 +74,4 @@ TEST_CASE("rows that cannot be kept are an error that names the folder") {
   before ? ::setenv("TMPDIR", kept.c_str(), 1) : ::unsetenv("TMPDIR");
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::row_store_test

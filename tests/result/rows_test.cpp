@@ -9,7 +9,7 @@
 #include "tests/support/scene_builder.hpp"
 #include "tests/support/simulate.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::rows_test {
 
 namespace {
 
@@ -298,4 +298,4 @@ TEST_CASE("a network in which nothing is unknown still has its rows") {
   }
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::rows_test

@@ -12,7 +12,7 @@
 #include "core/result/trajectory.hpp"
 #include "tests/support/simulate.hpp"
 
-using namespace rheonet;
+namespace rheonet::test::sensitivities_test {
 
 namespace {
 
@@ -166,3 +166,5 @@ record = ["n1.position"]
 TEST_CASE("derivatives by what changes the times of the rows do not exist") {
   CHECK_THROWS_WITH_AS(by(stick_slip, "simulate.stop"), doctest::Contains("changes the times of the rows"), SimulationError);
 }
+
+}  // namespace rheonet::test::sensitivities_test

@@ -9,8 +9,7 @@
 #include "tests/support/random.hpp"
 #include "tests/support/simulate.hpp"
 
-using namespace rheonet;
-using namespace rheonet::test;
+namespace rheonet::test::series_parallel_reduction_test {
 
 namespace {
 
@@ -122,3 +121,5 @@ p = { position = "7 mm" }
 )";
   check_same(placed + simulated("\"v.force\", \"k2.force\", \"p.position\""));
 }
+
+}  // namespace rheonet::test::series_parallel_reduction_test

@@ -12,8 +12,9 @@
 #include "core/result/run.hpp"
 #include "tests/netlist/reading.hpp"
 #include "tests/support/check.hpp"
+#include "tests/support/simulate.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::stop_when_test {
 
 namespace {
 
@@ -193,4 +194,4 @@ TEST_CASE("stop_when: mistakes") {
                 "[simulate]\nstop = 1\nstop_when = \"s.force > 0\"\n").find("`stop_when` cannot depend on `s.force`") != std::string::npos);
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::stop_when_test

@@ -13,7 +13,7 @@
 #include "core/result/variants.hpp"
 #include "tests/support/simulate.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::variants_test {
 
 namespace {
 
@@ -98,4 +98,4 @@ TEST_CASE("nothing is varied that the scene does not have") {
   for (const SimulationMethod& method : all) CHECK(method.name.starts_with("order up to "));
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::variants_test

@@ -8,7 +8,7 @@
 #include "tests/support/simulate.hpp"
 #include "tests/tools/scenes.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::work_precision_test {
 
 namespace {
 
@@ -150,4 +150,4 @@ TEST_CASE("what cannot be certified has no price, and says when and of what") {
   CHECK(list.prices[1].failure.find("`block.position`") != std::string::npos);
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::work_precision_test

@@ -14,7 +14,7 @@
 #include "core/result/certify.hpp"
 #include "tests/series/chain.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::series_test {
 
 namespace {
 
@@ -177,4 +177,4 @@ TEST_CASE("chains that failed have forces in balance") {
   CHECK(tally.refused + tally.slow == 0);
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::series_test

@@ -10,7 +10,7 @@
 #include "tests/support/scene_builder.hpp"
 #include "tests/support/simulate.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::chatter_detection_test {
 
 namespace {
 
@@ -171,4 +171,4 @@ output = { points = 11 }
   }
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::chatter_detection_test

@@ -11,7 +11,7 @@
 #include "core/result/run.hpp"
 #include "tests/support/simulate.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::corners_test {
 
 namespace {
 
@@ -129,4 +129,4 @@ record = ["body.position"]
   CHECK(summary.restarts == 8);
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::corners_test

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-using namespace rheonet;
+namespace rheonet::test::dense_factors_test {
 
 TEST_CASE("a dense matrix in factors gives back what it was multiplied with, whatever the order of its pivots") {
   for (const int n : {1, 2, 3, 4, 9}) {
@@ -37,3 +37,5 @@ TEST_CASE("a singular matrix has no factors, one next to it does") {
     CHECK(factors.factorise() == (off != 0));
   }
 }
+
+}  // namespace rheonet::test::dense_factors_test

@@ -12,7 +12,7 @@
 #include "core/network/error.hpp"
 #include "tests/support/simulate.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::exact_arc_test {
 
 namespace {
 
@@ -221,4 +221,4 @@ push = { type = "force", at = "b", force = { table = [[0, 0], [1, 0], [1, 0.5], 
   CHECK_EQ(rows["push.force"][100], 0.5);
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::exact_arc_test

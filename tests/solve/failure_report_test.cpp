@@ -7,7 +7,7 @@
 #include "tests/support/scene_builder.hpp"
 #include "tests/support/simulate.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::failure_report_test {
 
 namespace {
 
@@ -76,4 +76,4 @@ TEST_CASE("a step in position whose shares rounding hides is told with the motio
            "apart; give the step a time to rise in");
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::failure_report_test

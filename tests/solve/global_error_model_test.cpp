@@ -8,8 +8,7 @@
 
 #include "tests/support/simulate.hpp"
 
-using namespace rheonet;
-using namespace rheonet::test;
+namespace rheonet::test::global_error_model_test {
 
 namespace {
 
@@ -94,3 +93,5 @@ stop = {}
   CHECK(damped < 22);
   CHECK(undamped > 25);
 }
+
+}  // namespace rheonet::test::global_error_model_test

@@ -14,7 +14,7 @@
 
 #include "tests/support/simulate.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::hard_arcs_test {
 
 namespace {
 
@@ -345,4 +345,4 @@ TEST_CASE("arcs: an elastic ball that friction slows comes to rest, after infini
   CHECK_EQ(of.rows["f.force"].back(), -Fc);  // the floor carries the rest
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::hard_arcs_test

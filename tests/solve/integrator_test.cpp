@@ -10,8 +10,7 @@
 #include "tests/support/probe.hpp"
 #include "tests/support/simulate.hpp"
 
-using namespace rheonet;
-using namespace rheonet::test;
+namespace rheonet::test::integrator_test {
 
 namespace {
 
@@ -110,3 +109,5 @@ TEST_CASE("an event of the state is met where the state has it, also late") {
     CHECK(std::abs(first_event({falls_at(start + 0.3)}, start).time - 0.3) < 1e-12 + 1e-13 * start);
   }
 }
+
+}  // namespace rheonet::test::integrator_test

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <vector>
 
-using namespace rheonet;
+namespace rheonet::test::linear_solver_test {
 
 // As friction goes on at its bound its slope falls towards 0, by any number of digits, and stays an entry of the matrix.
 TEST_CASE("a pivot that has become a small one costs no digits") {
@@ -27,3 +27,5 @@ TEST_CASE("a pivot that has become a small one costs no digits") {
     }
   }
 }
+
+}  // namespace rheonet::test::linear_solver_test

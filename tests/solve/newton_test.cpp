@@ -10,8 +10,7 @@
 #include "tests/support/probe.hpp"
 #include "tests/support/simulate.hpp"
 
-using namespace rheonet;
-using namespace rheonet::test;
+namespace rheonet::test::newton_test {
 
 namespace {
 
@@ -63,3 +62,5 @@ TEST_CASE("the iteration meets the equations at the end of a step, and says how 
     }
   }
 }
+
+}  // namespace rheonet::test::newton_test

@@ -10,7 +10,7 @@
 #include "tests/support/simulate.hpp"
 #include "tests/tools/scenes.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::profile_test {
 
 namespace {
 
@@ -101,4 +101,4 @@ TEST_CASE("a limited order is kept to") {
   }
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::profile_test

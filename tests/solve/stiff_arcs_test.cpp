@@ -10,7 +10,7 @@
 
 #include "tests/support/simulate.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::stiff_arcs_test {
 
 namespace {
 
@@ -122,4 +122,4 @@ TEST_CASE("stiff arcs: what decays within 1e-12 of the run is left to IDA") {
   }
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::stiff_arcs_test

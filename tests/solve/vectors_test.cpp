@@ -7,7 +7,7 @@
 #include <functional>
 #include <vector>
 
-using namespace rheonet;
+namespace rheonet::test::vectors_test {
 
 namespace {
 
@@ -88,3 +88,5 @@ TEST_CASE("operations on several vectors are those of SUNDIALS, one after the ot
     compare([&](Vectors& v) { return N_VLinearSumVectorArray(count, 1, v.from(1), -0.6, v.from(2), v.from(2)); });
   }
 }
+
+}  // namespace rheonet::test::vectors_test

@@ -3,8 +3,7 @@
 #include "tests/support/program.hpp"
 #include "tests/tools/scenes.hpp"
 
-using namespace rheonet::test;
-
+namespace rheonet::test::certify_test {
 
 TEST_CASE("--certify says how far each record is off, and writes the rows that it is about") {
   const Folder folder(oscillator + "method = \"ida\"\n");
@@ -66,3 +65,5 @@ TEST_CASE("a certified run can be interrupted, and knows of a full disk") {
   const Finished full = folder.shell("rheonet run short.toml --certify -o /dev/full", 1);
   CHECK(contains(full.err, "cannot write to `/dev/full`: No space left on device"));
 }
+
+}  // namespace rheonet::test::certify_test

@@ -3,7 +3,7 @@
 #include "tests/support/program.hpp"
 #include "tests/tools/scenes.hpp"
 
-using namespace rheonet::test;
+namespace rheonet::test::check_test {
 
 TEST_CASE("check says that a scene is right, and simulates nothing") {
   const Folder folder(endless);
@@ -283,3 +283,5 @@ scene.toml:7:28: warning: nodes `body` and `Body` differ in capital letters only
     CHECK(folder.shell(std::string("rheonet ") + command + " scene.toml --without delay", 0).err == advice);
   }
 }
+
+}  // namespace rheonet::test::check_test

@@ -4,7 +4,7 @@
 #include "tests/support/program.hpp"
 #include "tests/tools/scenes.hpp"
 
-using namespace rheonet::test;
+namespace rheonet::test::claims_test {
 
 namespace {
 
@@ -68,3 +68,5 @@ TEST_CASE("a claim that cannot be read has status 2, one on what never comes fai
   CHECK(folder.shell("rheonet check bad.toml").status == 2);
   CHECK(contains(folder.shell("rheonet check bad.toml").err, "expected a force (N), found a length (m)"));
 }
+
+}  // namespace rheonet::test::claims_test

@@ -3,7 +3,7 @@
 #include "tests/support/program.hpp"
 #include "tests/tools/scenes.hpp"
 
-using namespace rheonet::test;
+namespace rheonet::test::command_line_test {
 
 TEST_CASE("help and version go to standard output with status 0") {
   const Folder folder;
@@ -95,3 +95,5 @@ TEST_CASE("--set takes one value or several, before the scene or after it") {
   CHECK(wrong.status == 2);
   CHECK(contains(wrong.err, "stiffness"));
 }
+
+}  // namespace rheonet::test::command_line_test

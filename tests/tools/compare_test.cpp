@@ -8,7 +8,7 @@
 #include "tests/support/program.hpp"
 #include "tests/tools/scenes.hpp"
 
-using namespace rheonet::test;
+namespace rheonet::test::compare_test {
 
 namespace {
 
@@ -254,3 +254,5 @@ TEST_CASE("compare: interrupted, it says so, leaves an earlier file alone and ke
     CHECK_FALSE(contains(table, "9e6"));
   }
 }
+
+}  // namespace rheonet::test::compare_test

@@ -8,8 +8,7 @@
 #include "core/network/component.hpp"
 #include "tests/support/program.hpp"
 
-using namespace rheonet;
-using namespace rheonet::test;
+namespace rheonet::test::components_test {
 
 TEST_CASE("components describes every element type and all its parameters") {
   const Folder folder;
@@ -111,3 +110,5 @@ TEST_CASE("schema prints a JSON Schema that knows every element type") {
   for (const Component* component : components())
     CHECK(contains(result.out, "\"" + component->declaration.type + "\""));
 }
+
+}  // namespace rheonet::test::components_test

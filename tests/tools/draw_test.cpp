@@ -4,7 +4,7 @@
 #include "tests/support/xml.hpp"
 #include "tests/tools/scenes.hpp"
 
-using namespace rheonet::test;
+namespace rheonet::test::draw_test {
 
 TEST_CASE("draw writes an SVG or a PNG, simulating nothing") {
   const Folder folder(oscillator);
@@ -60,3 +60,5 @@ a = { velocity = 1 }
         "  fewer of a `repeat` show its structure as well: --set PATH.repeat.count=5\n");
   folder.shell("rheonet draw long.toml -o net.svg --set chain.repeat.count=5", 0);
 }
+
+}  // namespace rheonet::test::draw_test

@@ -4,7 +4,7 @@
 
 #include "tests/support/program.hpp"
 
-using namespace rheonet::test;
+namespace rheonet::test::effects_test {
 
 namespace {
 
@@ -55,3 +55,5 @@ TEST_CASE("a scene without any effect has nothing to weigh") {
   const Folder folder("[elements]\nhand = { type = \"motion\", at = \"hand\", velocity = 1 }\n[simulate]\nstop = 1\n");
   CHECK(contains(folder.shell("rheonet effects scene.toml", 0).out, "nothing in it brings an effect that could be left out"));
 }
+
+}  // namespace rheonet::test::effects_test

@@ -10,7 +10,7 @@
 #include "tests/support/program.hpp"
 #include "tests/tools/scenes.hpp"
 
-using namespace rheonet::test;
+namespace rheonet::test::explain_test {
 
 TEST_CASE("explain says what is solved, what is left out and why") {
   const Folder folder(pulled_slider + short_run);
@@ -94,3 +94,5 @@ TEST_CASE("explain --numerics lists every numerical parameter once, with value, 
   }
   CHECK(contains(folder.shell("rheonet explain", 2).err, "SCENE"));
 }
+
+}  // namespace rheonet::test::explain_test

@@ -7,7 +7,7 @@
 
 #include "tests/support/program.hpp"
 
-using namespace rheonet::test;
+namespace rheonet::test::extremes_test {
 
 namespace {
 
@@ -167,3 +167,5 @@ record = ["c.position"]
   CHECK(last(run_any(scene("p.force", "3"))) == doctest::Approx(6e-3).epsilon(1e-4));
   CHECK(contains(run_any(scene("d.force", "3")).err, "cannot take in `d.force`"));
 }
+
+}  // namespace rheonet::test::extremes_test

@@ -3,7 +3,7 @@
 #include "tests/support/program.hpp"
 #include "tests/tools/scenes.hpp"
 
-using namespace rheonet::test;
+namespace rheonet::test::first_mistakes_test {
 
 namespace {
 
@@ -70,3 +70,5 @@ stop = 1
 )");
   CHECK(contains(folder.shell("rheonet explain scene.toml", 0).out, "index 2 as wired, 0 as solved; what joins the masses at `x`, `y`"));
 }
+
+}  // namespace rheonet::test::first_mistakes_test

@@ -8,7 +8,7 @@
 #include "tests/support/program.hpp"
 #include "tests/tools/scenes.hpp"
 
-using namespace rheonet::test;
+namespace rheonet::test::interrupt_test {
 
 namespace {
 
@@ -70,3 +70,5 @@ TEST_CASE("a signal before the first row leaves an earlier result alone") {
   interrupt(folder, "rheonet run scene.toml -o out.csv", "TERM", 1);
   CHECK_EQ(folder.read("out.csv"), "time,earlier\n0,1\n");
 }
+
+}  // namespace rheonet::test::interrupt_test

@@ -7,7 +7,8 @@
 #include "tests/support/program.hpp"
 #include "tests/tools/scenes.hpp"
 
-using namespace rheonet::test;
+namespace rheonet::test::output_test {
+
 namespace fs = std::filesystem;
 
 namespace {
@@ -109,3 +110,5 @@ TEST_CASE("rows are CSV: a file that is named as another format is refused befor
   for (const std::string file : {"x.csv", "x.txt", "x.dat", "x", "/dev/null"}) folder.shell("rheonet run scene.toml -q -o " + file, 0);
   CHECK(folder.read("x.txt") == folder.read("x.csv"));
 }
+
+}  // namespace rheonet::test::output_test

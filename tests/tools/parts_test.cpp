@@ -6,7 +6,7 @@
 #include "tests/support/program.hpp"
 #include "tests/tools/scenes.hpp"
 
-using namespace rheonet::test;
+namespace rheonet::test::parts_test {
 
 namespace {
 
@@ -67,3 +67,5 @@ record = ["k.force", "l.force"]
   folder.shell("rheonet run scene.toml -q -o whole.csv --keep parts; cmp apart.csv whole.csv", 0);
 }
 #endif
+
+}  // namespace rheonet::test::parts_test

@@ -8,7 +8,7 @@
 #include "tests/support/xml.hpp"
 #include "tests/tools/scenes.hpp"
 
-using namespace rheonet::test;
+namespace rheonet::test::plot_test {
 
 namespace {
 
@@ -319,3 +319,5 @@ TEST_CASE("of many records that nobody chose a dozen of each quantity are drawn,
   CHECK_FALSE(contains(drawn.out, ">c.12.force<"));
   CHECK(contains(drawn.out, ">a.velocity<"));
 }
+
+}  // namespace rheonet::test::plot_test

@@ -2,7 +2,7 @@
 
 #include "tests/support/program.hpp"
 
-using namespace rheonet::test;
+namespace rheonet::test::power_records_test {
 
 namespace {
 
@@ -61,3 +61,5 @@ TEST_CASE("powers, energies and expressions by the command line") {
   const Finished wrong = folder.shell("rheonet run scene.toml --set 'simulate.record=[{name=\"drag\", value=\"drive.force - k.energy\"}]'", 2);
   CHECK(contains(wrong.err, "they cannot be added"));
 }
+
+}  // namespace rheonet::test::power_records_test

@@ -11,7 +11,7 @@
 #include "tests/support/program.hpp"
 #include "tests/tools/scenes.hpp"
 
-using namespace rheonet::test;
+namespace rheonet::test::precision_test {
 
 TEST_CASE("precision prints what accuracy costs, writes it as CSV and draws it") {
   const Folder folder(oscillator);
@@ -201,3 +201,5 @@ TEST_CASE("precision of a scene that fails or is interrupted has status 1") {
   folder.write("short.toml", oscillator);
   CHECK(contains(folder.shell("rheonet precision short.toml --accuracies 1e-2 --runs 1 -o /dev/full", 1).err, "No space left"));
 }
+
+}  // namespace rheonet::test::precision_test

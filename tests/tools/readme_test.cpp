@@ -12,7 +12,8 @@
 #include "tests/support/program.hpp"
 #include "tools/web/assets.hpp"
 
-using namespace rheonet::test;
+namespace rheonet::test::readme_test {
+
 namespace fs = std::filesystem;
 
 namespace {
@@ -190,3 +191,5 @@ TEST_CASE("every link of the project's pages leads somewhere") {
   }
   CHECK(links > 10);
 }
+
+}  // namespace rheonet::test::readme_test

@@ -3,7 +3,7 @@
 #include "tests/support/program.hpp"
 #include "tests/tools/scenes.hpp"
 
-using namespace rheonet::test;
+namespace rheonet::test::report_test {
 
 // The contents of a report are tested in a browser: tests/web.
 
@@ -29,3 +29,5 @@ TEST_CASE("a program without the one that serves says what is missing") {
   CHECK(serve.err.find("error: `serve` cannot begin: ") == 0);
   CHECK(serve.err.find("rheonet-serve`: No such file or directory\n  it belongs beside `rheonet`: build or install both\n") != std::string::npos);
 }
+
+}  // namespace rheonet::test::report_test

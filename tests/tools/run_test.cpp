@@ -7,7 +7,7 @@
 #include "tests/support/program.hpp"
 #include "tests/tools/scenes.hpp"
 
-using namespace rheonet::test;
+namespace rheonet::test::run_test {
 
 namespace {
 
@@ -292,3 +292,5 @@ TEST_CASE("run --sensitivities says what cannot be multiplied, and writes nothin
   CHECK(contains(times.err, "`simulate.stop` changes the times of the rows"));
   CHECK(contains(folder.shell("rheonet run scene.toml --sensitivities k1.stiffness --certify", 2).err, "--certify"));
 }
+
+}  // namespace rheonet::test::run_test

@@ -11,7 +11,7 @@
 #include "tests/support/table.hpp"
 #include "tests/tools/scenes.hpp"
 
-using namespace rheonet::test;
+namespace rheonet::test::sweep_draws_test {
 
 namespace {
 
@@ -130,3 +130,5 @@ TEST_CASE("sweep: a wrong distribution or correlation is refused") {
           "--correlate simulate.stop,drive.velocity=0.9 --correlate parameters.B,drive.velocity=-0.9",
           "their matrix is not positive definite");
 }
+
+}  // namespace rheonet::test::sweep_draws_test

@@ -6,7 +6,7 @@
 #include "tests/support/table.hpp"
 #include "tests/tools/scenes.hpp"
 
-using namespace rheonet::test;
+namespace rheonet::test::sweep_shards_test {
 
 namespace {
 
@@ -108,3 +108,5 @@ TEST_CASE("sweep: options of shards that contradict one another are refused") {
   refused("--resume -o a.mat", "`--resume` writes CSV, not .mat");
   refused("--shard 1/2 -o a.csv --statistics s.json", "`--statistics` is of all runs, not of a shard");
 }
+
+}  // namespace rheonet::test::sweep_shards_test

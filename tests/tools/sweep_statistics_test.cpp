@@ -10,7 +10,8 @@
 #include "tests/support/table.hpp"
 #include "tests/tools/scenes.hpp"
 
-using namespace rheonet::test;
+namespace rheonet::test::sweep_statistics_test {
+
 using Json = nlohmann::json;
 
 namespace {
@@ -148,3 +149,5 @@ TEST_CASE("sweep: statistics that cannot be are refused") {
   refused("--vary parameters.B=1:2 --random 4 --measure steps --statistics s.json --quantiles 5", "above 0 and below 1, not `5`");
   refused("--vary parameters.B=1:2 --random 4 --measure steps --statistics s.csv", "`--statistics s.csv`: statistics are written as JSON");
 }
+
+}  // namespace rheonet::test::sweep_statistics_test

@@ -14,8 +14,7 @@
 #include "tests/support/table.hpp"
 #include "tests/tools/scenes.hpp"
 
-using namespace rheonet;
-using namespace rheonet::test;
+namespace rheonet::test::sweep_test {
 
 namespace {
 
@@ -359,3 +358,5 @@ TEST_CASE("sweep: of rows of many runs each run is a curve of its own, called by
   // The curve, and its sample in the legend.
   CHECK(matches(folder.shell("rheonet plot s.csv -x parameters.B -y 'max(c.force)' -o -", 0).out, "stroke-width=\"1.6\"").size() == 2);
 }
+
+}  // namespace rheonet::test::sweep_test

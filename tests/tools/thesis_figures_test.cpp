@@ -8,7 +8,8 @@
 #include "tests/support/program.hpp"
 #include "tests/support/xml.hpp"
 
-using namespace rheonet::test;
+namespace rheonet::test::thesis_figures_test {
+
 namespace fs = std::filesystem;
 
 namespace {
@@ -62,3 +63,5 @@ TEST_CASE("the figures of the thesis are those that its scenes give") {
     check_same_figure(text_of(entry.path()), text_of(figures / name));
   }
 }
+
+}  // namespace rheonet::test::thesis_figures_test

@@ -2,7 +2,7 @@
 
 #include "tests/support/program.hpp"
 
-using namespace rheonet::test;
+namespace rheonet::test::thesis_tables_test {
 
 // The tables are made from the scenes, the declarations and the names of the tests; that of Couette flow by running.
 TEST_CASE("the generated part of netlists/thesis/README.md is up to date") {
@@ -17,3 +17,5 @@ TEST_CASE("the generated part of netlists/thesis/README.md is up to date") {
   CHECK(contains(page, "| `slider` | `davidenkov` with `stiffness = inf`; `sfm` with `stiffness = inf` |"));
   CHECK_MESSAGE(up_to_date, "netlists/thesis/README.md is stale; tools/thesis/tables says how to bring it up to date");
 }
+
+}  // namespace rheonet::test::thesis_tables_test

@@ -8,7 +8,8 @@
 #include "tests/support/page.hpp"
 #include "tests/support/program.hpp"
 
-using namespace rheonet::test;
+namespace rheonet::test::tutorial_test {
+
 namespace fs = std::filesystem;
 
 namespace {
@@ -76,3 +77,5 @@ TEST_CASE("the tutorial does what it says") {
     check_same_picture(drawn, kept, picture);
   }
 }
+
+}  // namespace rheonet::test::tutorial_test

@@ -11,7 +11,7 @@
 #include "tests/support/simulate.hpp"
 #include "tests/wiring/overload.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::catalogue_test {
 
 TEST_CASE("the catalogue has every pair and triple, under every drive") {
   const std::vector<Wiring>& all = catalogue();
@@ -79,4 +79,4 @@ TEST_CASE("what friction can take is its least cut") {
   CHECK_FALSE(first_above(scene, &Capacity::sliding, 1.3 * 3.01 / 1.7));
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::catalogue_test

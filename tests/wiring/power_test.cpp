@@ -5,7 +5,7 @@
 #include "tests/support/simulate.hpp"
 #include "tests/wiring/catalogue.hpp"
 
-namespace rheonet::test {
+namespace rheonet::test::power_test {
 
 TEST_CASE("wirings: the power of an element is stored or dissipated") {
   constexpr double accuracy = 1e-7;
@@ -26,4 +26,4 @@ TEST_CASE("wirings: the power of an element is stored or dissipated") {
   CHECK(simulated >= at_least);
 }
 
-}  // namespace rheonet::test
+}  // namespace rheonet::test::power_test

@@ -7,7 +7,7 @@
 #include "tests/wiring/judge.hpp"
 #include "tests/wiring/tally.hpp"
 
-using namespace rheonet::test;
+namespace rheonet::test::wiring_test {
 
 namespace {
 
@@ -60,3 +60,5 @@ TEST_CASE("wirings that did not always satisfy the identities of mechanics") {
   const Tally tally = judge_all(numbers, 1, check_identities);
   CHECK_MESSAGE(tally.of(Verdict::agrees) == numbers.size(), format_list(tally.wrong));
 }
+
+}  // namespace rheonet::test::wiring_test
