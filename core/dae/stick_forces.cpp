@@ -283,11 +283,13 @@ void StickForces::Shared::bound(std::size_t slider, double low, double high) {
   with_trains.high[slider] = high;
 }
 
-/// A force beyond its bound by round-off is set to it, where forces of trains decide on the bound.
+/// A force beyond its bound by round-off is set to it, where forces of trains decide on the bound; one that is further beyond comes nearer by as
+/// much, so that the force is continuous and its guard does not flicker.
 void StickForces::Shared::meet_bounds(double roundoff) {
   for (std::size_t k = 0; !trains.empty() && k < sliders.size(); ++k) {
     const double within = std::clamp(force[k], with_trains.low[k], with_trains.high[k]);
-    if (std::abs(force[k] - within) <= roundoff) force[k] = within;
+    const double beyond = force[k] - within;
+    force[k] = within + std::copysign(std::max(0.0, std::abs(beyond) - roundoff), beyond);
   }
 }
 

@@ -23,9 +23,11 @@ bool TrainForceTrials::agree(const std::vector<double>& found) {
     miss[k] = force - trial_[k];
     size = std::max({size, std::abs(force), std::abs(trial_[k]), loss.lost(1, force), loss.lost(-1, force)});
   }
-  // Within round-off it goes on as long as that brings more digits.
-  const double off = miss.lpNorm<Eigen::Infinity>(), before = std::exchange(off_, off);
-  if (off <= numerics::balance_roundoff * size && (off <= numerics::equation_roundoff * size || off >= before)) return true;
+  // Within round-off it goes on as long as one of two trials brings more digits: of two that miss alike, one may stick and one slip.
+  const double off = miss.lpNorm<Eigen::Infinity>();
+  const bool closer = off < off_, stalls = std::exchange(stalls_, !closer) && !closer;
+  if (closer) off_ = off;
+  if (off <= numerics::balance_roundoff * size && (off <= numerics::equation_roundoff * size || stalls)) return true;
   Eigen::VectorXd next = points_.next(trial_, trial_ + miss);
   if (count_++ == 0 && near_) next = trial_ * (1 + numerics::near_trial);
   trial_ = std::move(next);

@@ -34,7 +34,8 @@ class TrainForceTrials {
   const Inputs* inputs_;
   double forces_, off_ = std::numeric_limits<double>::infinity();
   int count_ = 0;
-  bool near_ = false;  ///< the second trial is near the first
+  bool near_ = false;    ///< the second trial is near the first
+  bool stalls_ = false;  ///< the last trial was no closer than one before it
   Eigen::VectorXd trial_;
   FixedPoint points_;  ///< combines one trial more than trains have losses
 };

@@ -112,9 +112,48 @@ brake = { type = "slider", between = ["b", "ground"], coulomb = 0.6, breakaway =
 shake = { type = "torque", at = "a", torque = { sine = 1, frequency = 2 } }
 push = { type = "torque", at = "b", torque = { sine = 3, frequency = 1, offset = -1 } }
 )"},
+    {"a freewheel in front of a worm gear that winds up a spring", R"(
+first = { type = "inertia", at = "a", inertia = 1 }
+second = { type = "inertia", at = "b", inertia = 2 }
+worm = { type = "gear", between = ["a", "b"], ratio = -0.9, efficiency = [0.4098, 0] }
+free = { type = "freewheel", between = ["a", "ground"] }
+shaft = { type = "spring", between = ["b", "ground"], stiffness = 34 }
+push = { type = "torque", at = "a", torque = { triangle = 3, frequency = 4 } }
+)"},
+    {"bearings that let a shaft slip at the same load again and again, beside a worm gear without a load", R"(
+first = { type = "inertia", at = "a", inertia = 1 }
+second = { type = "inertia", at = "b", inertia = 1 }
+gear = { type = "gear", between = ["b", "a"], ratio = 3, efficiency = [0.8467, 0.0554], bearing = 0.4361 }
+third = { type = "inertia", at = "c", inertia = 2 }
+worm = { type = "gear", between = ["b", "c"], ratio = -2, efficiency = [0.35, -0.5] }
+free = { type = "freewheel", between = ["a", "ground"] }
+push = { type = "torque", at = "a", torque = { sine = 3, frequency = 1 } }
+)"},
 };
 
 }  // namespace
+
+TEST_CASE("a worm gear lets go as soon as its load exceeds what it holds, at every turn of the load") {
+  // Pushed further against the spring, the gear slips from m / 0.4098 on, where m is the torque of the spring by 0.9.
+  const RunTable rows = simulate(R"~(
+domain = "rotation"
+[elements]
+first = { type = "inertia", at = "a", inertia = 1 }
+second = { type = "inertia", at = "b", inertia = 2 }
+worm = { type = "gear", between = ["a", "b"], ratio = -0.9, efficiency = [0.4098, 0] }
+free = { type = "freewheel", between = ["a", "ground"] }
+shaft = { type = "spring", between = ["b", "ground"], stiffness = 34 }
+push = { type = "torque", at = "a", torque = { triangle = 3, frequency = 4 } }
+[simulate]
+stop = 2
+output = { points = 801 }
+)~");
+  for (std::size_t k = 0; k < rows.time().size(); ++k) {
+    CAPTURE(rows.time()[k]);
+    const double held = std::abs(rows["shaft.force"][k]) / 0.9 / 0.4098;
+    if (rows["a.velocity"][k] == 0) CHECK_LE(rows["push.force"][k], held + 1e-6);
+  }
+}
 
 TEST_CASE("a gear of which the load can take all takes none of it where a worm gear holds all") {
   const RunTable rows = simulate(scene_of("domain = \"rotation\"\n[elements]" + std::string(just_holds) + "[simulate]\nstop = 1\noutput = { points = 41 }\n"));
