@@ -37,6 +37,10 @@ constexpr std::array<std::array<double, parts + 1>, places> lagrange() {
 EventFinder::EventFinder(const EventFunctions& functions, bool locate, Look look)
     : functions_(functions), locate_(locate), look_(std::move(look)), fired_(at(functions.count()), 0), left_(fired_.size(), 0), between_(left_), right_(left_), band_(left_) {}
 
+void EventFinder::arm() {
+  for (double& function : left_) function = std::max(function, std::numeric_limits<double>::min());
+}
+
 void EventFinder::take(int which) {
   std::fill(fired_.begin(), fired_.end(), 0);
   fired_[at(which)] = 1;

@@ -30,6 +30,9 @@ class EventFinder {
   bool none() const { return fired_.empty(); }
   /// The event functions at the beginning of the next step; the ends of steps that have no event are the beginnings of the next.
   std::vector<double>& at_begin() { return left_; }
+  /// A function that is not above 0 at the beginning is so by round-off, since its guard was armed there. It fires as soon as it is seen below 0: it would
+  /// never fall through 0 otherwise.
+  void arm();
   /// For steps that are short beside what changes: the functions are looked at at the end. Returns the time of the event, just behind it.
   std::optional<double> in_step(double begin, double end);
   /// For long steps: a function may fall through 0 and come back.
