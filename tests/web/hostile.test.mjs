@@ -447,6 +447,11 @@ test('a newer request of a session ends the older', async () => {
   assert.equal(newer.at(-1).kind, 'done');
   const ended = messages((await older).body);
   assert.ok(!ended.some(({ kind, message }) => kind === 'done' || /longer than/.test(message)), 'the older one went on');
+  // An older one that is late does not end the newer one.
+  const running = post({ task: 'show', text: endless, file: 'a.toml', session: 'one', turn: 2 });
+  await new Promise((resolve) => setTimeout(resolve, 300));
+  assert.equal((await post({ task: 'show', text: bingham, file: 'b.toml', session: 'one', turn: 1 })).status, 409);
+  assert.match(messages((await running).body).at(-1).message, /longer than/);
   // One of another session does not.
   const [first, second] = await Promise.all(['two', 'three'].map((session) => post({ task: 'show', text: bingham, file: 'a.toml', session })));
   assert.match(first.body, /"kind":"done"/);
