@@ -22,6 +22,7 @@ using nlohmann::json;
 const std::vector<std::string> levels{"beginner", "intermediate", "advanced"};
 constexpr const char* time_name = "time";
 constexpr int curve_points = 400;
+constexpr std::size_t most_items = 50;  // Choices, and presets: the netlist is read anew for each, and links carry lessons of strangers.
 
 /// The text as a TOML string.
 std::string quoted(const std::string& text) { return json(text).dump(); }
@@ -48,6 +49,7 @@ class LessonReader {
   json read_choice(const TomlValue& table, const std::string& x, const std::string& y);
   json read_range(const TomlEntry& entry, const std::string& record);
   json read_presets(const TomlEntry& entry);
+  bool expect_few(const TomlEntry& list);
   json read_values(const TomlValue& table, const std::string& name);
   std::optional<std::vector<double>> course_of(const TomlEntry& form, const std::string& record);
   std::optional<Scene> scene_with(const std::string& override, const std::string& record, const TomlValue& source, const std::string& what);
@@ -170,7 +172,7 @@ json LessonReader::read_prediction(const TomlEntry& entry) {
     return told;
   }
   if (range) diagnostics_.error(range->spot, "`range` is of a curve that is sketched; that of `choices` follows from their curves");
-  if (!expect_array(choices->value, "`choices`", diagnostics_, "[[predict.choices]]")) return told;
+  if (!expect_array(choices->value, "`choices`", diagnostics_, "[[predict.choices]]") || !expect_few(*choices)) return told;
   int right = 0;
   for (const TomlValue& item : choices->value.items) {
     told["choices"].push_back(read_choice(item, x, y));
@@ -181,19 +183,26 @@ json LessonReader::read_prediction(const TomlEntry& entry) {
   return told;
 }
 
+bool LessonReader::expect_few(const TomlEntry& list) {
+  if (list.value.items.size() <= most_items) return true;
+  diagnostics_.error(list.spot, fmt::format("`{}` has {} items, and may have {}", list.key, list.value.items.size(), most_items));
+  return false;
+}
+
+/// A choice without a curve `y` is a text alone.
 json LessonReader::read_choice(const TomlValue& table, const std::string& x, const std::string& y) {
   if (!expect_table(table, "a choice", diagnostics_)) return {};
   TableReader reader(table, "a choice");
-  json told{{"text", required_text(reader, "text", table.spot)}, {"reply", required_text(reader, "reply", table.spot)}, {"right", false}};
+  json told{{"text", required_text(reader, "text", table.spot)}, {"reply", optional_text(reader, "reply")}, {"right", false}};
   if (const TomlEntry* right = reader.find("right"); right && expect_boolean(right->value, "`right`", diagnostics_)) told["right"] = right->value.boolean;
-  const TomlEntry* up = reader.require("y", table.spot, "the curve, over the parameters of the netlist and the time t: y = \"F/k*(1 - exp(-t*k/B))\"");
-  const TomlEntry* across = x == time_name ? nullptr : reader.require("x", table.spot, "as `y`: the other side of the curve over the time t");
+  const TomlEntry* up = reader.find("y");
+  const TomlEntry* across = !up || x == time_name ? nullptr : reader.require("x", table.spot, "as `y`: the other side of the curve over the time t");
   reader.finish(diagnostics_);
+  if (!up) return told;
   const Scene& scene = *plain_.scene;
   json time = json::array();
   for (int k = 0; k <= curve_points; ++k) time.push_back(scene.start + (scene.stop - scene.start) * k / curve_points);
-  if (up)
-    if (const auto course = course_of(*up, y)) told["y"] = *course;
+  if (const auto course = course_of(*up, y)) told["y"] = *course;
   if (across) {
     if (const auto course = course_of(*across, x)) told["x"] = *course;
   } else {
@@ -247,7 +256,7 @@ json LessonReader::read_range(const TomlEntry& entry, const std::string& record)
 
 json LessonReader::read_presets(const TomlEntry& entry) {
   json list = json::array();
-  if (!expect_array(entry.value, "`presets`", diagnostics_, "[[presets]]")) return list;
+  if (!expect_array(entry.value, "`presets`", diagnostics_, "[[presets]]") || !expect_few(entry)) return list;
   for (const TomlValue& item : entry.value.items) {
     if (!expect_table(item, "a preset", diagnostics_)) continue;
     TableReader reader(item, "a preset");
@@ -300,7 +309,7 @@ void tell_lesson(const json& task, const std::vector<const FileOffer*>& offers, 
   const SentScene netlist = sent_scene(task);
   const std::string file = lesson_file_of(netlist.file);
   std::string why;
-  std::optional<std::string> text = offers.front()->text_of(file, why);
+  std::optional<std::string> text = task.contains("lesson") ? task["lesson"].get<std::string>() : offers.front()->text_of(file, why);
   if (!text) return;
   LessonReader reader(netlist, offers, task.value("language", "en"), file, std::move(*text));
   const json lesson = reader.read();
