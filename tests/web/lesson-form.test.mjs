@@ -38,7 +38,9 @@ name   = "dry"
 values = { "parameters.B" = "0 N*m*s/rad" }
 
 [explain]
-en = "The slider holds."
+en = """
+The slider holds.
+"""
 `;
 const withT = bingham.replace('Tc = ', 'T = "50 ms"\nTc = ');
 const desk = setUp({ 'bingham.toml': bingham, 'taught.toml': withT, 'taught.lesson': own, 'plain.toml': bingham });
@@ -164,6 +166,7 @@ test('mistakes are shown at their fields, and what was typed stays when the form
   await box(page, 'Its curve', 0).fill('Tc');
   await box(page, 'Its curve', 1).fill('2*Td');
   await box(page, 'Its curve', 2).fill('2 "N');
+  await form(page).getByRole('radio').nth(2).check();
   await show(page);
   await page.waitForFunction(() => document.querySelector('dialog[open] [aria-invalid]'));
   assert.equal(await whyOf(page, box(page, 'Its curve', 0)), '');
@@ -177,6 +180,9 @@ test('mistakes are shown at their fields, and what was typed stays when the form
   await choose(page, 'Save', 'Make a lesson');
   assert.equal(await box(page, 'Its curve', 1).inputValue(), '2*Td');
   await box(page, 'Its curve', 1).fill('2*Tc');
+  await show(page);
+  await form(page).getByText('mark the right one').waitFor();
+  await form(page).getByRole('radio').first().check();
   await show(page);
   await offered(page);
   await close();
@@ -265,7 +271,7 @@ test('editing keeps presets, comments and the texts in other languages', async (
   await page.locator('.toast', { hasText: 'taught.lesson' }).waitFor();
   const text = readFileSync(inFolder('taught.lesson'), 'utf8');
   assert.equal(text, expected.replace(/\[\[predict.choices\]\]\ntext.en = "It stays."[^[]*/, '\n').replace('{ en = "It doubles." }', '{ en = "It doubles.", de = "Es verdoppelt sich." }')
-    .replace('en = "The slider holds."', 'en = "The slider holds."\nde = "Der Reiber hält."'));
+    .replace('holds.\n"""', 'holds.\n"""\nde = "Der Reiber hält."'));
   await close();
 });
 

@@ -179,7 +179,7 @@ json LessonReader::read_prediction(const TomlEntry& entry) {
     if (told["choices"].back().value("right", false)) ++right;
   }
   if (choices->value.items.size() < 2) diagnostics_.error(choices->value.spot, "there is nothing to choose: `choices` needs two or more");
-  if (right != 1) diagnostics_.error(choices->spot, fmt::format("of the choices {} are right, and one must be", right), "right = true");
+  if (right != 1) diagnostics_.error(choices->spot, fmt::format("of the choices {} are right, and one must be", right), "mark the right one: right = true");
   return told;
 }
 

@@ -72,8 +72,8 @@ export class LessonDialog {
     this.about = t('A value with its unit is a level line. A formula has the time t and the parameters ({names}). Empty: no curve.', { names: names.join(', ') });
     this.right = freshId('right');
     this.choices = [];
-    (choices ?? Array(fewest).fill({})).forEach((choice, k) => this.add({ right: !choices && !k, ...choice }));
-    const answers = element('div', { class: 'answers' }, (this.host = element('div')), element('button', { type: 'button', onclick: () => this.add().text.input.focus() }, t('Add an answer')));
+    for (const choice of choices ?? Array(fewest).fill({})) this.add(choice);
+    const answers = element('div', { class: 'answers' }, (this.host = element('div')), element('button', { type: 'button', onclick: () => this.add({}).text.input.focus() }, t('Add an answer')));
     const axis = element('div', { class: 'side-by-side' }, this.low.row, this.high.row);
     const showWay = () => {
       answers.hidden = !this.isChoice;
@@ -97,7 +97,7 @@ export class LessonDialog {
     return this.way.input.value === 'choices';
   }
 
-  add({ from, text = '', y = '', reply = '', right = false } = {}) {
+  add({ from, text = '', y = '', reply = '', right = false }) {
     const choice = { from, text: field(t('Answer'), line(text)), y: field(t('Its curve'), line(y), null, this.about), reply: field(t('Reply to it'), line(reply)),
       right: element('input', { type: 'radio', name: this.right, checked: right }) };
     this.choices.push(choice);
@@ -107,7 +107,6 @@ export class LessonDialog {
 
   remove(choice) {
     this.choices = this.choices.filter((each) => each !== choice);
-    if (choice.right.checked) this.choices[0].right.checked = true;
     this.showChoices();
     this.choices[0].text.input.focus();
   }
@@ -150,6 +149,7 @@ export class LessonDialog {
           refused.set(at, [refused.get(at), hint ? `${why} – ${hint}` : why].filter(Boolean).join('\n'));
         }
       });
+      if (!this.dialog.open) return; // closed meanwhile
       if (isRight) {
         this.dialog.close();
         this.key = null; // The form of this lesson is filled from its text the next time.

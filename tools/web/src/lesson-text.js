@@ -30,7 +30,7 @@ export class LessonText {
     const value = this.toml.root.at(...path);
     if (!value || value.kind === 'array') return '';
     const one = value.kind === 'value' ? value : ([this.language, 'en'].map((code) => value.at(code)).find(Boolean) ?? [...value.entries.values()][0]?.value);
-    return String(one?.plain ?? '');
+    return String(one?.plain ?? '').trim();
   }
 
   edit(changes) {
