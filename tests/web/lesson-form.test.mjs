@@ -55,6 +55,16 @@ const form = (page) => page.locator('dialog.lesson-form[open]');
 const box = (page, name, k = 0) => form(page).getByRole('textbox', { name, exact: true }).nth(k);
 const show = (page) => form(page).getByRole('button', { name: 'See it as a student' }).click();
 const offered = (page) => page.locator('.choices, .sketch').first().waitFor();
+const lessonText = async (page) => {
+  const [download] = await Promise.all([page.waitForEvent('download'), choose(page, 'Save', 'Download the lesson')]);
+  return readFileSync(await download.path(), 'utf8');
+};
+// Shows the lesson, which has no mistakes.
+const pass = async (page) => {
+  await show(page);
+  await form(page).waitFor({ state: 'detached' });
+  await offered(page);
+};
 const whyOf = (page, field) => field.evaluate((input) => document.getElementById(input.getAttribute('aria-describedby')).textContent);
 
 test('a lesson is made from nothing, sent as a link, and taken by a student', async () => {
@@ -71,7 +81,7 @@ test('a lesson is made from nothing, sent as a link, and taken by a student', as
   await box(page, 'Question').focus();
   await page.keyboard.type('The drum turns evenly. What does the torque do?');
   for (let k = 0; k < 4; ++k) await page.keyboard.press('Tab');
-  for (const words of ['It grows without bound.', '', 'Something gives way.', 'It stays at $T_c + B\\omega$.', '7 N*m']) {
+  for (const words of ['It grows without bound.', '', '' /* Draw */, 'Something gives way.', 'It stays at $T_c + B\\omega$.', '7 N*m']) {
     await page.keyboard.type(words);
     await page.keyboard.press('Tab');
   }
@@ -80,8 +90,7 @@ test('a lesson is made from nothing, sent as a link, and taken by a student', as
   await form(page).getByRole('radio').nth(1).check();
   await box(page, 'Explanation afterwards').fill('The slider gives $T_c$.\n\nThe dashpot gives $B\\omega$, and $\\nu$ is not a line.');
   await accessible(page, 'the form, for choices');
-  await show(page);
-  await offered(page);
+  await pass(page);
   assert.equal(await page.locator('.plots-box').isVisible(), false);
   await page.getByText('This is what students see').first().waitFor();
   await page.getByRole('button', { name: 'Link', exact: true }).click();
@@ -144,6 +153,47 @@ test('a sketched prediction, with an axis on which the run has room', async () =
   await close();
 });
 
+test('the curve of an answer is drawn, and drawn anew', async () => {
+  const { page, close } = await open('#file=plain.toml');
+  const drawnIn = async () => JSON.parse(/^y = (\[.*\])$/m.exec(await lessonText(page))?.[1] ?? 'null');
+  await choose(page, 'Save', 'Make a lesson');
+  await box(page, 'Question').fill('What does the torque do?');
+  await form(page).getByLabel('How', { exact: true }).selectOption('choices');
+  for (let k = 0; k < 2; ++k) await box(page, 'Answer', k).fill(`Answer ${k}`);
+  await form(page).getByRole('radio').first().check();
+  const pen = form(page).getByRole('button', { name: 'Draw', exact: true });
+  await box(page, 'Its curve', 0).fill('7 N*m');
+  await pen.first().click();
+  assert.equal(await box(page, 'Its curve', 0).inputValue(), '7 N*m'); // until something is drawn
+  const sketch = form(page).locator('.sketch');
+  await sketch.focus();
+  for (let k = 0; k < 5; ++k) await page.keyboard.press('ArrowUp');
+  await page.keyboard.press('End');
+  assert.equal(await box(page, 'Its curve', 0).inputValue(), '');
+  await accessible(page, 'the form, with a sketch');
+  await pass(page);
+  assert.match(await page.locator('.choice-curve').first().getAttribute('d'), /^M8\.0 /);
+  const drawn = await drawnIn();
+  assert.equal(drawn.length, 61);
+  assert.ok(drawn.every((value) => Math.abs(value - 2.45) < 0.01), String(drawn)); // five twentieths of -1.4 to 8.4 N m
+  // It is there again, and stays as it is.
+  await page.getByRole('button', { name: 'Edit the lesson' }).click();
+  assert.ok(await sketch.isVisible());
+  await pass(page);
+  assert.deepEqual(await drawnIn(), drawn);
+  await page.getByRole('button', { name: 'Edit the lesson' }).click();
+  await box(page, 'Its curve', 0).fill('5 N*m');
+  assert.equal(await sketch.count(), 0);
+  await pass(page);
+  assert.equal(await drawnIn(), null);
+  assert.match(await lessonText(page), /^y = "5 N\*m"$/m);
+  await page.getByRole('button', { name: 'Edit the lesson' }).click();
+  await box(page, 'Its curve', 0).fill('');
+  await pass(page);
+  assert.equal(await page.locator('.choice-curve').count(), 0);
+  await close();
+});
+
 test('mistakes are shown at their fields, and what was typed stays when the form is closed', async () => {
   const { page, close } = await open();
   await choose(page, 'Save', 'Make a lesson');
@@ -183,8 +233,7 @@ test('mistakes are shown at their fields, and what was typed stays when the form
   await show(page);
   await form(page).getByText('mark the right one').waitFor();
   await form(page).getByRole('radio').first().check();
-  await show(page);
-  await offered(page);
+  await pass(page);
   await close();
 });
 
@@ -192,8 +241,7 @@ test('the lesson is saved beside its netlist, and the gallery has it', async () 
   const { page, close } = await open('#file=plain.toml');
   await choose(page, 'Save', 'Make a lesson');
   await box(page, 'Question').fill('And now?');
-  await show(page);
-  await offered(page);
+  await pass(page);
   await page.getByRole('button', { name: 'Save ▾' }).click();
   assert.deepEqual(await page.getByRole('menuitem').allTextContents(), ['Save as plain.toml, plain.lesson', 'Save in the folder as …', 'Download the netlist', 'Download the lesson', 'Edit the lesson']);
   const [download] = await Promise.all([page.waitForEvent('download'), page.getByRole('menuitem', { name: 'Download the lesson' }).click()]);
@@ -218,8 +266,7 @@ test('the lesson is saved beside its netlist, and the gallery has it', async () 
   await page.keyboard.press('Escape');
   await choose(page, 'Save', 'Edit the lesson');
   await box(page, 'Minutes').fill('7');
-  await show(page);
-  await offered(page);
+  await pass(page);
   await choose(page, 'Save', 'Save in the folder as …');
   await page.locator('dialog.save input').fill('other');
   await page.locator('dialog.save').getByRole('button', { name: 'Save', exact: true }).click();
@@ -235,8 +282,7 @@ test('editing keeps presets, comments and the texts in other languages', async (
   await choose(page, 'Save', 'Edit the lesson');
   assert.deepEqual([await box(page, 'Question').inputValue(), await box(page, 'Minutes').inputValue(), await box(page, 'Its curve', 1).inputValue()], ['What does the torque do?', '25', 'Tc*exp(-t/T)']);
   // Without a change it is the same text.
-  await show(page);
-  await offered(page);
+  await pass(page);
   const save = async () => {
     await page.keyboard.press('Control+s');
     await page.locator('.toast', { hasText: 'Saved as taught.lesson.' }).waitFor();
@@ -250,8 +296,7 @@ test('editing keeps presets, comments and the texts in other languages', async (
   await form(page).getByRole('button', { name: 'Add an answer' }).click();
   await box(page, 'Answer', 2).fill('It doubles.');
   await form(page).getByLabel('Level').selectOption('beginner');
-  await show(page);
-  await offered(page);
+  await pass(page);
   await save();
   const expected = own.replace('"What does the torque do?"', '"What does the torque do in the end?"').replace('"Tc + B w"', '"Tc and B w"').replace('right   = true\n', '')
     .replace('"advanced"', '"beginner"').replace('"Nothing releases it."\n', '"Nothing releases it."\nright = true\n\n[[predict.choices]]\ntext = { en = "It doubles." }\n');
@@ -266,6 +311,7 @@ test('editing keeps presets, comments and the texts in other languages', async (
   await box(page, 'Erklärung danach').fill('Der Reiber hält.');
   await form(page).getByRole('button', { name: 'Entfernen' }).first().click();
   await form(page).locator('[type=submit]').click();
+  await form(page).waitFor({ state: 'detached' });
   await offered(page);
   await page.keyboard.press('Control+s');
   await page.locator('.toast', { hasText: 'taught.lesson' }).waitFor();

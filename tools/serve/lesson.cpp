@@ -52,6 +52,7 @@ class LessonReader {
   bool expect_few(const TomlEntry& list);
   json read_values(const TomlValue& table, const std::string& name);
   std::optional<std::vector<double>> course_of(const TomlEntry& form, const std::string& record);
+  std::optional<std::vector<double>> drawn_course(const TomlEntry& form);
   std::optional<Scene> scene_with(const std::string& override, const std::string& record, const TomlValue& source, const std::string& what);
 
   const SentScene& netlist_;
@@ -202,7 +203,8 @@ json LessonReader::read_choice(const TomlValue& table, const std::string& x, con
   const Scene& scene = *plain_.scene;
   json time = json::array();
   for (int k = 0; k <= curve_points; ++k) time.push_back(scene.start + (scene.stop - scene.start) * k / curve_points);
-  if (const auto course = course_of(*up, y)) told["y"] = *course;
+  const bool is_drawn = up->value.kind == TomlValue::Kind::array;
+  if (const auto course = is_drawn ? drawn_course(*up) : course_of(*up, y)) told["y"] = *course;
   if (across) {
     if (const auto course = course_of(*across, x)) told["x"] = *course;
   } else {
@@ -241,6 +243,23 @@ std::optional<std::vector<double>> LessonReader::course_of(const TomlEntry& form
   if (std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); })) return values;
   diagnostics_.error(form.value.spot, "the curve `" + form.key + "` has no value at some times of the run");
   return {};
+}
+
+/// The values [SI] of a curve that is drawn: numbers [SI] at equal intervals from the start of the run to its end, joined by lines.
+std::optional<std::vector<double>> LessonReader::drawn_course(const TomlEntry& form) {
+  const std::vector<TomlValue>& items = form.value.items;
+  const auto is_number = [](const TomlValue& item) { return item.kind == TomlValue::Kind::number && std::isfinite(item.number); };
+  if (items.size() < 2 || !std::all_of(items.begin(), items.end(), is_number)) {
+    diagnostics_.error(form.value.spot, "a curve `" + form.key + "` that is drawn has two or more numbers, in SI", form.key + " = [0, 0.5, 0.8, 0.9]");
+    return {};
+  }
+  std::vector<double> values;
+  for (int k = 0; k <= curve_points; ++k) {
+    const double place = static_cast<double>(k) / curve_points * static_cast<double>(items.size() - 1);
+    const std::size_t left = std::min(static_cast<std::size_t>(place), items.size() - 2);
+    values.push_back(std::lerp(items[left].number, items[left + 1].number, place - static_cast<double>(left)));
+  }
+  return values;
 }
 
 /// The range of an axis: two values of the record's quantity [SI].

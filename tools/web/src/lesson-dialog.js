@@ -5,6 +5,7 @@ import { language } from './language.js';
 import { LessonText } from './lesson-text.js';
 import { levels } from './lesson.js';
 import { t } from './messages.js';
+import { predictionOf } from './prediction.js';
 import { inPrint } from './units.js';
 
 const fewest = 2; // answers to choose from
@@ -45,12 +46,20 @@ export class LessonDialog {
     this.dialog.showModal();
   }
 
-  // The ends of an axis on which the run of a record has room, and 0.
-  axisOf(path) {
+  recordOf(path) {
+    return this.data.records[this.data.index.get(path)] ?? this.data.records[0];
+  }
+
+  // The ends [SI] of an axis on which the run of a record has room, and 0.
+  endsOf(path) {
     const values = this.data.column(path) ?? [];
-    const [low, high] = [Math.min(0, ...values), Math.max(0, ...values)];
-    const { unit } = this.data.records[this.data.index.get(path)] ?? {};
-    return [low, high].map((end, k) => `${Number((end + (k - 0.5) * 0.4 * (high - low || 2)).toPrecision(2))} ${unit === '1' ? '' : unit}`.trim());
+    const [low, high] = values.reduce(([least, most], value) => [Math.min(least, value), Math.max(most, value)], [0, 0]);
+    return [low, high].map((end, k) => Number((end + (k - 0.5) * 0.4 * (high - low || 2)).toPrecision(2)));
+  }
+
+  axisOf(path) {
+    const { unit } = this.recordOf(path);
+    return this.endsOf(path).map((end) => (unit === '1' ? String(end) : `${end} ${unit}`));
   }
 
   build(lesson, first) {
@@ -97,12 +106,40 @@ export class LessonDialog {
     return this.way.input.value === 'choices';
   }
 
-  add({ from, text = '', y = '', reply = '', right = false }) {
+  add({ from, text = '', y = '', drawn, reply = '', right = false }) {
     const choice = { from, text: field(t('Answer'), line(text)), y: field(t('Its curve'), line(y), null, this.about), reply: field(t('Reply to it'), line(reply)),
-      right: element('input', { type: 'radio', name: this.right, checked: right }) };
+      right: element('input', { type: 'radio', name: this.right, checked: right, oninput: () => this.way.refuse('') }) };
+    choice.pen = element('button', { type: 'button', onclick: () => this.draw(choice) }, t('Draw'));
+    choice.y.input.after(choice.pen);
+    choice.y.input.addEventListener('input', () => this.rub(choice));
+    if (drawn?.length) this.draw(choice, drawn);
     this.choices.push(choice);
     this.showChoices();
     return choice;
+  }
+
+  // The curve of an answer is drawn instead of written; `before`: what it is so far.
+  draw(choice, before) {
+    const path = this.record.input.value;
+    const { start, stop } = this.data.scene;
+    const [low, high] = this.endsOf(path);
+    const range = [Math.min(low, ...(before ?? [])), Math.max(high, ...(before ?? []))];
+    const board = predictionOf({ start, stop, range }, () => {
+      choice.drawn = board.isComplete ? board.curve.y : [];
+      choice.y.input.value = '';
+    }, this.recordOf(path));
+    if (before) board.restore(board.curve.y.map((_, k, { length }) => before[Math.round((k / (length - 1)) * (before.length - 1))]));
+    choice.drawn = undefined; // until it changes
+    choice.pen.hidden = true;
+    choice.board = board.host;
+    choice.pen.after(board.host);
+  }
+
+  // What is written replaces what was drawn.
+  rub(choice) {
+    choice.board?.remove();
+    choice.drawn = choice.y.input.value ? undefined : [];
+    choice.pen.hidden = false;
   }
 
   remove(choice) {
@@ -134,7 +171,7 @@ export class LessonDialog {
     const needed = [this.prompt, ...(this.isChoice ? this.choices.map(({ text }) => text) : [this.low, this.high]), this.minutes];
     for (const part of needed) if (!typed(part)) refused.set(part, t('A value is missing.'));
     if (refused.size) return this.refuse(refused);
-    const choices = this.isChoice ? this.choices.map(({ from, text, y, reply, right }) => ({ from, text: typed(text), y: typed(y), reply: typed(reply), right: right.checked })) : null;
+    const choices = this.isChoice ? this.choices.map(({ from, text, y, drawn, reply, right }) => ({ from, text: typed(text), y: typed(y), drawn, reply: typed(reply), right: right.checked })) : null;
     let isRight = false;
     try {
       const written = new LessonText(this.source.text, language);

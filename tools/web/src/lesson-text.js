@@ -74,13 +74,15 @@ export class LessonText {
     this.edit([{ from: end, to: end, insert: '\n\n[[predict.choices]]' }]);
   }
 
-  // The fields, by name; `choices` is null if a curve is sketched. `from` is the place of a choice in this text.
+  // The fields, by name; `choices` is null if a curve is sketched. `from` is the place of a choice in this text, `drawn` its curve as numbers; to
+  // write(), only if it was drawn anew.
   get fields() {
     const at = (...path) => this.read(path);
     const [low, high] = this.range;
     const choices = this.choices.map((_, k) => {
       const [text, y, reply, right] = ['text', 'y', 'reply', 'right'].map((key) => at(...choicesAt, k, key));
-      return { from: k, text, y, reply, right: right === 'true' };
+      const drawn = this.toml.root.at(...choicesAt, k, 'y')?.items.map(({ plain }) => plain);
+      return { from: k, text, y, drawn, reply, right: right === 'true' };
     });
     return { level: at('level'), minutes: at('minutes'), prompt: at('predict', 'prompt'), y: at('predict', 'y'), low, high, choices: choices.length ? choices : null, explain: at('explain') };
   }
@@ -106,7 +108,8 @@ export class LessonText {
       if (choice.from === undefined) this.addChoice();
       const path = [...choicesAt, k];
       this.putText([...path, 'text'], choice.text);
-      this.change([...path, 'y'], choice.y);
+      if (choice.drawn) this.put([...path, 'y'], choice.drawn.length ? `[${choice.drawn.map((value) => Number(value.toPrecision(3))).join(', ')}]` : '');
+      else this.change([...path, 'y'], choice.y);
       const right = choice.right ? 'true' : '';
       this.change([...path, 'right'], right, right);
       this.putText([...path, 'reply'], choice.reply);
