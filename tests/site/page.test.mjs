@@ -85,6 +85,7 @@ for (const [what, address, cut] of [['a static host', () => hosted.address, fals
     assert.match(await exported(page, 'Plots (SVG)'), /<svg .*B spring\.force.*<\/svg>\s*$/s);
     const report = await exported(page, 'Report (HTML)');
     assert.match(report, /Bingham: what yields, and when/);
+    assert.match(report.slice(0, report.indexOf('</head>')), /@font-face ?\{[^}]*KaTeX_Main[^}]*url\("?data:font\/woff2;base64,.{1000}/s);
 
     await page.getByRole('button', { name: 'Link' }).click();
     await page.waitForFunction(() => location.hash.startsWith('#s='));

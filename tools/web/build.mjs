@@ -32,19 +32,6 @@ const fonts = {
   },
 };
 
-// The English texts, which are the keys of all translations, stand in the bundle once: translations other than the first are lists in its order.
-const messages = {
-  name: 'messages',
-  setup(build) {
-    build.onLoad({ filter: /messages\/\w+\.json$/ }, ({ path }) => {
-      if (path.endsWith('de.json')) return null;
-      const [first, own] = [join(dirname(path), 'de.json'), path].map((file) => JSON.parse(readFileSync(file, 'utf8')));
-      const list = JSON.stringify(Object.keys(first).map((key) => own[key]));
-      return { contents: `import first from './de.json';\nconst list = ${list};\nexport default Object.fromEntries(Object.keys(first).map((key, k) => [key, list[k]]));`, resolveDir: dirname(path) };
-    });
-  },
-};
-
 async function bundle(entry) {
   const result = await esbuild.build({
     entryPoints: [join(source, 'src', entry)],
@@ -59,7 +46,7 @@ async function bundle(entry) {
     outdir: output,
     write: false,
     metafile: true,
-    plugins: [fonts, messages],
+    plugins: [fonts],
   });
   const text = (ending) => result.outputFiles.find((file) => file.path.endsWith(ending)).text;
   return { script: text('.js'), style: text('.css'), packages: packagesOf(Object.keys(result.metafile.inputs), output) };
