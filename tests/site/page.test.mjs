@@ -85,6 +85,7 @@ for (const [what, address, cut] of [['a static host', () => hosted.address, fals
     assert.match(await exported(page, 'Plots (SVG)'), /<svg .*B spring\.force.*<\/svg>\s*$/s);
     const report = await exported(page, 'Report (HTML)');
     assert.match(report, /Bingham: what yields, and when/);
+    assert.match(report.slice(0, report.indexOf('</head>')), /@font-face ?\{[^}]*KaTeX_Main[^}]*url\("?data:font\/woff2;base64,.{1000}/s);
 
     await page.getByRole('button', { name: 'Link' }).click();
     await page.waitForFunction(() => location.hash.startsWith('#s='));
@@ -96,6 +97,34 @@ for (const [what, address, cut] of [['a static host', () => hosted.address, fals
     await close();
   });
 }
+
+test('from disk: a lesson is made of a netlist, edited, and opens from its link', async () => {
+  const { page, close } = await open(`${oneFile}#file=teaching/bingham.toml`, { cut: true });
+  await page.getByRole('button', { name: 'Save ▾' }).click();
+  await page.getByRole('menuitem', { name: 'Edit the lesson' }).click();
+  const form = page.locator('dialog.lesson-form[open]');
+  await form.getByRole('textbox', { name: 'Answer' }).nth(1).fill('It falls to the force of the slider.');
+  await form.getByRole('textbox', { name: 'Its curve' }).nth(0).fill('5 m');
+  const show = form.getByRole('button', { name: 'See it as a student' });
+  await show.click();
+  await form.getByText('expected a force (N), found a length (m)').waitFor();
+  await form.getByRole('textbox', { name: 'Its curve' }).nth(0).fill('');
+  await show.click();
+  await page.locator('.choices').waitFor();
+  await page.getByRole('button', { name: 'Link', exact: true }).click();
+  await page.waitForFunction(() => location.hash.startsWith('#s='));
+  const link = page.url();
+  await page.getByRole('button', { name: 'Save ▾' }).click();
+  assert.deepEqual(await page.getByRole('menuitem').allTextContents(), ['Download the netlist', 'Download the lesson', 'Edit the lesson']);
+  await close();
+  const other = await open(link, { cut: true });
+  assert.equal(await other.page.locator('.plots-box').isVisible(), false);
+  await other.page.getByRole('radio', { name: 'It falls to the force of the slider.' }).check();
+  await other.page.getByRole('button', { name: 'Compare with the run' }).click();
+  await other.page.getByText('That is what happens.').waitFor();
+  assert.ok(await other.page.locator('.presets button', { hasText: 'as at first' }).isVisible());
+  await other.close();
+});
 
 test('an element is drawn, its card has law and fields, and rheonet checks them, without a server', async () => {
   const { page, close } = await open(`${hosted.address}#file=teaching/stick-slip.toml`);

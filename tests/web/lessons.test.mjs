@@ -215,6 +215,7 @@ test('mistakes of a lesson are named with file, line and column', async () => {
     'y      = "k1.force"': ['y      = "k1.forse"', /belt\.lesson:6:10: error: the netlist has no record `k1\.forse`[^]*did you mean `k1\.force`\?/],
     'y     = "k*x0"': ['y     = "k*x"', /the curve `y`: .*`x`/],
     'y     = "k*x0" ': ['y     = "x0"', /the curve `y`: .*expected a force \(N\), found a length \(m\)/],
+    'y     = "k*x0*exp(-t*k/B)"': ['y     = [1, "2 N"]', /a curve `y` that is drawn has two or more numbers/],
     'right = true\n': ['', /of the choices 0 are right, and one must be/],
     '"parameters.B"': ['"parameters.C"', /`parameters\.C` is no number of the netlist that has a slider/],
     '"50 N*s/m"': ['"50 N"', /the preset `thin oil`: .*/],

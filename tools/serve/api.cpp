@@ -154,14 +154,16 @@ void Api::save(Response& response, const Reader& body) {
   send_text(response, report::to_line(answer), "application/json");
 }
 
-std::shared_ptr<Job> Api::begin(const std::string& session, std::string task) {
+std::shared_ptr<Job> Api::begin(const std::string& session, double turn, std::string task) {
   const std::lock_guard lock(mutex_);
-  std::erase_if(sessions_, [](const auto& each) { return each.second.expired(); });
+  std::erase_if(sessions_, [](const auto& each) { return each.second.job.expired(); });
   if (!session.empty())
-    if (const auto older = sessions_.find(session); older != sessions_.end())
-      if (const std::shared_ptr<Job> job = older->second.lock()) job->cancel();
+    if (const auto other = sessions_.find(session); other != sessions_.end()) {
+      if (other->second.turn > turn) return nullptr;
+      if (const std::shared_ptr<Job> job = other->second.job.lock()) job->cancel();
+    }
   auto job = std::make_shared<Job>(pool_, std::move(task));
-  if (!session.empty()) sessions_[session] = job;
+  if (!session.empty()) sessions_[session] = {job, turn};
   return job;
 }
 
@@ -170,7 +172,9 @@ void Api::start(Response& response, const Reader& body) {
   if (!request) return;
   const std::optional<json> task = task_of(*request);
   if (!task) return refuse(response, 400, "the request asks for nothing that is known here");
-  const std::shared_ptr<Job> job = begin(word(*request, "session"), report::to_line(*task));
+  const json turn = request->value("turn", json());
+  const std::shared_ptr<Job> job = begin(word(*request, "session"), turn.is_number() ? turn.get<double>() : 0, report::to_line(*task));
+  if (!job) return refuse(response, 409, "a newer task of this session has come before this one");
   response.set_chunked_content_provider("application/x-ndjson", [job](std::size_t, httplib::DataSink& sink) {
     constexpr auto tick = 50ms;
     bool finished = false;

@@ -30,14 +30,19 @@ class Api {
   void open(const Request& request, Response& response) const;
   void save(Response& response, const Reader& body);
   void start(Response& response, const Reader& body);
-  /// Starts a task, and cancels the earlier task of the same session.
-  std::shared_ptr<Job> begin(const std::string& session, std::string task);
+  struct Newest {
+    std::weak_ptr<Job> job;
+    double turn = 0;  ///< The page counts its tasks.
+  };
+  /// Starts a task, and cancels the earlier task of the same session. Null if a later task of the session has come before it: requests
+  /// travel on several connections, which overtake each other on a busy machine.
+  std::shared_ptr<Job> begin(const std::string& session, double turn, std::string task);
 
   Folder& folder_;
   Pool& pool_;
   Keys& keys_;
   std::mutex mutex_;
-  std::map<std::string, std::weak_ptr<Job>> sessions_;
+  std::map<std::string, Newest> sessions_;
 };
 
 }  // namespace rheonet::serve

@@ -72,7 +72,7 @@ std::vector<fs::path> netlists_below(const fs::path& folder, bool& all_visited) 
   for (; !failed && item != end && visited < most_visited; item.increment(failed), ++visited) {
     const fs::path name = item->path().lexically_relative(folder);
     if (item->is_directory(failed) && (is_hidden(name) || item.depth() >= deepest)) item.disable_recursion_pending();
-    if (fault_of_name(name.string()).empty()) names.push_back(name);
+    if (name.extension() == ".toml" && fault_of_name(name.string()).empty()) names.push_back(name);
   }
   all_visited = visited < most_visited;
   std::sort(names.begin(), names.end());

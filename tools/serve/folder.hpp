@@ -37,7 +37,7 @@ class Folder {
     std::string text;
     std::string version;  ///< Identifies this text among all texts of the file.
   };
-  /// A netlist; absent if there is none with that name.
+  /// A netlist or a lesson; absent if there is none with that name.
   std::optional<Netlist> read(const std::string& file) const;
 
   struct Written {
@@ -46,7 +46,7 @@ class Folder {
     std::string why;      ///< Reason as text, unless `done`.
     std::string version;  ///< Version of the text that the file has now, written or not; "" if there is no file.
   };
-  /// Writes a netlist. Replaces an existing file only if its version is `version`, so that changes by others are not lost.
+  /// Writes a netlist or a lesson. Replaces an existing file only if its version is `version`, so that changes by others are not lost.
   Written write(const std::string& file, const std::string& text, const std::string& version);
   bool may_be_written() const { return may_be_written_; }
 

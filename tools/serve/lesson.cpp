@@ -22,6 +22,7 @@ using nlohmann::json;
 const std::vector<std::string> levels{"beginner", "intermediate", "advanced"};
 constexpr const char* time_name = "time";
 constexpr int curve_points = 400;
+constexpr std::size_t most_items = 50;  // Choices, and presets: the netlist is read anew for each, and links carry lessons of strangers.
 
 /// The text as a TOML string.
 std::string quoted(const std::string& text) { return json(text).dump(); }
@@ -48,8 +49,10 @@ class LessonReader {
   json read_choice(const TomlValue& table, const std::string& x, const std::string& y);
   json read_range(const TomlEntry& entry, const std::string& record);
   json read_presets(const TomlEntry& entry);
+  bool expect_few(const TomlEntry& list);
   json read_values(const TomlValue& table, const std::string& name);
   std::optional<std::vector<double>> course_of(const TomlEntry& form, const std::string& record);
+  std::optional<std::vector<double>> drawn_course(const TomlEntry& form);
   std::optional<Scene> scene_with(const std::string& override, const std::string& record, const TomlValue& source, const std::string& what);
 
   const SentScene& netlist_;
@@ -170,30 +173,38 @@ json LessonReader::read_prediction(const TomlEntry& entry) {
     return told;
   }
   if (range) diagnostics_.error(range->spot, "`range` is of a curve that is sketched; that of `choices` follows from their curves");
-  if (!expect_array(choices->value, "`choices`", diagnostics_, "[[predict.choices]]")) return told;
+  if (!expect_array(choices->value, "`choices`", diagnostics_, "[[predict.choices]]") || !expect_few(*choices)) return told;
   int right = 0;
   for (const TomlValue& item : choices->value.items) {
     told["choices"].push_back(read_choice(item, x, y));
     if (told["choices"].back().value("right", false)) ++right;
   }
   if (choices->value.items.size() < 2) diagnostics_.error(choices->value.spot, "there is nothing to choose: `choices` needs two or more");
-  if (right != 1) diagnostics_.error(choices->spot, fmt::format("of the choices {} are right, and one must be", right), "right = true");
+  if (right != 1) diagnostics_.error(choices->spot, fmt::format("of the choices {} are right, and one must be", right), "mark the right one: right = true");
   return told;
 }
 
+bool LessonReader::expect_few(const TomlEntry& list) {
+  if (list.value.items.size() <= most_items) return true;
+  diagnostics_.error(list.spot, fmt::format("`{}` has {} items, and may have {}", list.key, list.value.items.size(), most_items));
+  return false;
+}
+
+/// A choice without a curve `y` is a text alone.
 json LessonReader::read_choice(const TomlValue& table, const std::string& x, const std::string& y) {
   if (!expect_table(table, "a choice", diagnostics_)) return {};
   TableReader reader(table, "a choice");
-  json told{{"text", required_text(reader, "text", table.spot)}, {"reply", required_text(reader, "reply", table.spot)}, {"right", false}};
+  json told{{"text", required_text(reader, "text", table.spot)}, {"reply", optional_text(reader, "reply")}, {"right", false}};
   if (const TomlEntry* right = reader.find("right"); right && expect_boolean(right->value, "`right`", diagnostics_)) told["right"] = right->value.boolean;
-  const TomlEntry* up = reader.require("y", table.spot, "the curve, over the parameters of the netlist and the time t: y = \"F/k*(1 - exp(-t*k/B))\"");
-  const TomlEntry* across = x == time_name ? nullptr : reader.require("x", table.spot, "as `y`: the other side of the curve over the time t");
+  const TomlEntry* up = reader.find("y");
+  const TomlEntry* across = !up || x == time_name ? nullptr : reader.require("x", table.spot, "as `y`: the other side of the curve over the time t");
   reader.finish(diagnostics_);
+  if (!up) return told;
   const Scene& scene = *plain_.scene;
   json time = json::array();
   for (int k = 0; k <= curve_points; ++k) time.push_back(scene.start + (scene.stop - scene.start) * k / curve_points);
-  if (up)
-    if (const auto course = course_of(*up, y)) told["y"] = *course;
+  const bool is_drawn = up->value.kind == TomlValue::Kind::array;
+  if (const auto course = is_drawn ? drawn_course(*up) : course_of(*up, y)) told["y"] = *course;
   if (across) {
     if (const auto course = course_of(*across, x)) told["x"] = *course;
   } else {
@@ -234,6 +245,23 @@ std::optional<std::vector<double>> LessonReader::course_of(const TomlEntry& form
   return {};
 }
 
+/// The values [SI] of a curve that is drawn: numbers [SI] at equal intervals from the start of the run to its end, joined by lines.
+std::optional<std::vector<double>> LessonReader::drawn_course(const TomlEntry& form) {
+  const std::vector<TomlValue>& items = form.value.items;
+  const auto is_number = [](const TomlValue& item) { return item.kind == TomlValue::Kind::number && std::isfinite(item.number); };
+  if (items.size() < 2 || !std::all_of(items.begin(), items.end(), is_number)) {
+    diagnostics_.error(form.value.spot, "a curve `" + form.key + "` that is drawn has two or more numbers, in SI", form.key + " = [0, 0.5, 0.8, 0.9]");
+    return {};
+  }
+  std::vector<double> values;
+  for (int k = 0; k <= curve_points; ++k) {
+    const double place = static_cast<double>(k) / curve_points * static_cast<double>(items.size() - 1);
+    const std::size_t left = std::min(static_cast<std::size_t>(place), items.size() - 2);
+    values.push_back(std::lerp(items[left].number, items[left + 1].number, place - static_cast<double>(left)));
+  }
+  return values;
+}
+
 /// The range of an axis: two values of the record's quantity [SI].
 json LessonReader::read_range(const TomlEntry& entry, const std::string& record) {
   if (!expect_array(entry.value, "`range`", diagnostics_, "range = [\"-1 N\", \"5 N\"]")) return {};
@@ -247,7 +275,7 @@ json LessonReader::read_range(const TomlEntry& entry, const std::string& record)
 
 json LessonReader::read_presets(const TomlEntry& entry) {
   json list = json::array();
-  if (!expect_array(entry.value, "`presets`", diagnostics_, "[[presets]]")) return list;
+  if (!expect_array(entry.value, "`presets`", diagnostics_, "[[presets]]") || !expect_few(entry)) return list;
   for (const TomlValue& item : entry.value.items) {
     if (!expect_table(item, "a preset", diagnostics_)) continue;
     TableReader reader(item, "a preset");
@@ -300,7 +328,7 @@ void tell_lesson(const json& task, const std::vector<const FileOffer*>& offers, 
   const SentScene netlist = sent_scene(task);
   const std::string file = lesson_file_of(netlist.file);
   std::string why;
-  std::optional<std::string> text = offers.front()->text_of(file, why);
+  std::optional<std::string> text = task.contains("lesson") ? task["lesson"].get<std::string>() : offers.front()->text_of(file, why);
   if (!text) return;
   LessonReader reader(netlist, offers, task.value("language", "en"), file, std::move(*text));
   const json lesson = reader.read();

@@ -23,7 +23,7 @@ struct LessonGlance {
 LessonGlance glance_at_lesson(const std::string& text);
 
 /// Sends the message `lesson` in the language of the task, or `mistakes` with the mistakes of the lesson's file, whose curves and values are
-/// checked against the netlist. Sends nothing if there is no lesson.
+/// checked against the netlist. The task has the text of the `lesson`, or else its file is read. Sends nothing if there is no lesson.
 void tell_lesson(const nlohmann::json& task, const std::vector<const FileOffer*>& offers, const report::Tell& tell);
 
 }  // namespace rheonet::serve

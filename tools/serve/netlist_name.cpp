@@ -42,7 +42,7 @@ std::string fault_of_name(const std::string& file) {
   for (const fs::path& part : name)
     if (std::string fault = fault_of_part(part.string()); !fault.empty()) return fault;
   if (!name.has_filename()) return fmt::format("`{}` is the name of a folder: one of a netlist ends in .toml", file);
-  if (name.extension() != ".toml") return fmt::format("the name of a netlist ends in .toml: `{}.toml`?", file);
+  if (name.extension() != ".toml" && name.extension() != ".lesson") return fmt::format("the name of a netlist ends in .toml: `{}.toml`?", file);
   return "";
 }
 

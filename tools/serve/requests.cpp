@@ -83,6 +83,7 @@ std::optional<json> task_of(const json& request) {
     (*task)["task"] = kind;
     (*task)["draw"] = request.value("draw", json()) == true;
     (*task)["language"] = word(request, "language");
+    if (const json lesson = request.value("lesson", json()); lesson.is_string()) (*task)["lesson"] = lesson;
     return task;
   }
   if (kind == "sweep") {

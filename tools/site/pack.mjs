@@ -11,9 +11,12 @@ const [web, build, netlists, output] = process.argv.slice(2);
 const [wasm, sources] = [join(build, 'wasm'), join(build, 'sources')];
 const read = (folder, name) => readFileSync(join(folder, name), 'utf8');
 
+// The page has the fonts of reports already, and gives them to each report (engine.js).
+const withoutFonts = (text) => text.replace(/@font-face\{[^}]*\}/g, '');
+
 // The file system of the module: what its file offer gives (tools/serve/below.hpp), the names of netlists in the order of the gallery, and the
 // template of reports, the units, and the JSON Schema.
-const files = { '/report.html': read(web, 'report.html'), '/units.txt': read(build, 'units.txt'), '/schema.json': JSON.stringify(JSON.parse(read(build, 'schema.json'))) };
+const files = { '/report.html': withoutFonts(read(web, 'report.html')), '/units.txt': read(build, 'units.txt'), '/schema.json': JSON.stringify(JSON.parse(read(build, 'schema.json'))) };
 for (const entry of readdirSync(netlists, { withFileTypes: true, recursive: true })) {
   const path = join(entry.parentPath ?? entry.path, entry.name);
   if (!entry.isFile() || !/\.(toml|csv|lesson)$|^README\.md$/.test(entry.name)) continue;

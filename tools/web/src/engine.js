@@ -132,7 +132,14 @@ export const save = async () => {
   throw new Error(t('this page has no folder to save in'));
 };
 
+// A report with the fonts of this page: the module's template has none.
+function withFonts(report) {
+  const rules = [...document.styleSheets].flatMap(({ cssRules }) => [...cssRules]).filter((rule) => rule instanceof CSSFontFaceRule);
+  return report.replace('</head>', () => `<style>${rules.map(({ cssText }) => cssText).join('')}</style></head>`);
+}
+
 export const task = (request, onmessage, signal) =>
   ask('/api/task', request, (message) => {
-    onmessage(message.error ? { kind: 'failed', message: message.error } : message);
+    if (message.error) onmessage({ kind: 'failed', message: message.error });
+    else onmessage(message.type === 'text/html' ? { ...message, text: withFonts(message.text) } : message);
   }, signal);

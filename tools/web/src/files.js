@@ -3,6 +3,8 @@ import { folder, open } from './api.js';
 import { download, exporters } from './export.js';
 import { firstScene } from './first-scene.js';
 import { Gallery, inOrder } from './gallery.js';
+import { LessonDialog } from './lesson-dialog.js';
+import { lessonFileOf } from './lesson-text.js';
 import { decode, encode } from './link.js';
 import { t } from './messages.js';
 import { showCode } from './qr-dialog.js';
@@ -18,6 +20,7 @@ export class Files {
     this.folder = { scenes: [], may_be_written: false };
     this.gallery = new Gallery({ onopen: (file, isLesson) => this.openFile(file, true, isLesson), onnew: () => this.desk.beginAnew() });
     this.saving = new SaveDialog({ onsaved: (saved) => this.saved(saved) });
+    this.writing = new LessonDialog({ ondone: (text) => this.preview(text) });
     addEventListener('popstate', (event) => this.openAddress(event.state));
     addEventListener('beforeunload', () => this.keep());
   }
@@ -51,7 +54,7 @@ export class Files {
       if (kind === 'file' || kind === 'lesson') return await this.openFile(decodeURIComponent(value), false, kind === 'lesson');
       if (kind !== 'scene' && kind !== 's') return false;
       const { scenes, plots } = decode(kind, value);
-      this.desk.begin({ scenes: scenes.slice(0, 2).map(({ text, file }) => ({ text: String(text), file: String(file) })), plots });
+      this.desk.begin({ scenes: scenes.slice(0, 2).map(({ text, file, lesson }) => ({ text: String(text), file: String(file), lesson: lesson && { text: String(lesson.text) } })), plots, lesson: Boolean(scenes[0].lesson) });
       return true;
     } catch {
       // The browser's message (on characters and compression) would not help the user.
@@ -85,6 +88,52 @@ export class Files {
     history.pushState(null, '', to);
   }
 
+  // Begins the lesson again, or leaves it. A lesson that is in no folder stays with its netlist.
+  reopen(lesson) {
+    const scene = this.asOpened;
+    if (!scene.lesson) return this.openFile(scene.file, true, lesson);
+    this.leave(lesson ? location.href : undefined);
+    this.desk.begin({ scenes: [scene], lesson });
+  }
+
+  // The scene, without the changes that the steps of a lesson have made.
+  get asOpened() {
+    const { current, course } = this.desk;
+    const { text, opened, file, version, lesson } = current;
+    return { text: course.isOn ? opened : text, file, version, lesson };
+  }
+
+  // Makes a lesson of the netlist, or edits the one that it has.
+  async editLesson() {
+    const { desk } = this;
+    const { current } = desk;
+    const { file, version, data, stale } = current;
+    if (!data.scene || stale) return desk.answer(t('The netlist has mistakes.'), true);
+    try {
+      const name = lessonFileOf(file);
+      this.edited = current.lesson ?? (this.hasLesson ? await open(name) : { text: '', version: '' });
+      this.writing.open({ file, text: this.asOpened.text, lesson: this.edited.text, data, first: desk.plots.drawnCurves()[0]?.[0]?.y });
+    } catch (error) {
+      desk.answer(error.message, true);
+    }
+  }
+
+  // A lesson that has been written, as a student sees it.
+  preview(text) {
+    const { desk } = this;
+    const scene = { ...this.asOpened, lesson: { text, version: this.edited.version, isOwn: true } };
+    this.leave(location.href);
+    desk.begin({ scenes: [scene], lesson: true });
+    this.keep();
+    desk.answer(t('This is what students see. Save and Link hold the lesson too.'));
+  }
+
+  // Whether the folder has a lesson of the netlist.
+  get hasLesson() {
+    const { file, version } = this.desk.current;
+    return Boolean(version) && this.folder.scenes.some((scene) => scene.file === file && scene.lesson);
+  }
+
   nameInAddress(file, anew = false, lesson = false) {
     history[anew ? 'pushState' : 'replaceState'](null, '', `#${lesson ? 'lesson' : 'file'}=${encodeURIComponent(file)}`);
   }
@@ -99,8 +148,8 @@ export class Files {
     clearTimeout(this.later);
     const { variants, active, plots, course } = this.desk;
     const lesson = course.state;
-    const unsaved = always || lesson || variants.some(({ text, opened }) => text !== opened);
-    const scenes = variants.map(({ text, file, version, opened }) => ({ text, file, version, opened }));
+    const unsaved = always || lesson || variants.some(({ text, opened, lesson: own }) => own || text !== opened);
+    const scenes = variants.map(({ text, file, version, opened, lesson: own }) => ({ text, file, version, opened, lesson: own }));
     try {
       history.replaceState(unsaved ? { scenes, active, plots: plots.state, lesson } : null, '', location.href);
     } catch {
@@ -113,12 +162,14 @@ export class Files {
   }
 
   saves() {
-    const { file, version, text } = this.desk.current;
+    const { file, version, text, lesson } = this.desk.current;
     const here = this.folder.may_be_written;
     return [
-      here && version && { label: t('Save as {file}', { file }), act: () => this.save() },
+      here && version && { label: t('Save as {file}', { file: lesson ? `${file}, ${lessonFileOf(file)}` : file }), act: () => this.save() },
       here && { label: t('Save in the folder as …'), act: () => this.saving.saveAs({ file, version, text }) },
       { label: t('Download the netlist'), act: () => this.downloadNetlist() },
+      lesson && { label: t('Download the lesson'), act: () => download(new Blob([lesson.text], { type: 'application/toml' }), `${this.name}.lesson`) },
+      { label: lesson || this.hasLesson ? t('Edit the lesson') : t('Make a lesson'), act: () => this.editLesson() },
     ].filter(Boolean);
   }
 
@@ -131,12 +182,20 @@ export class Files {
     download(new Blob([this.desk.current.text], { type: 'application/toml' }), `${this.name}.toml`);
   }
 
+  // The lesson of a netlist is saved after it, beside it.
   async saved({ file, version, text }) {
     const { desk } = this;
-    Object.assign(desk.current, { file, version, opened: text });
-    this.nameInAddress(file);
+    const { current } = desk;
+    const { lesson } = current;
+    if (file.endsWith('.lesson')) current.lesson = null;
+    else {
+      if (lesson && file !== current.file) lesson.version = '';
+      Object.assign(current, { file, version, opened: text });
+      if (lesson) this.saving.write({ file: lessonFileOf(file), text: lesson.text, version: lesson.version ?? '' });
+    }
+    this.nameInAddress(current.file, false, desk.course.isOn);
     this.keep();
-    desk.showTitle(desk.current.data.scene?.title);
+    desk.showTitle(current.data.scene?.title);
     desk.answer(t('Saved as {file}.', { file }));
     await this.look();
   }
@@ -164,9 +223,11 @@ export class Files {
 
   // The address of the page carries the scene from now on; that of a lesson opens the lesson.
   putInAddress() {
-    if (this.desk.course.isOn) return;
-    const { variants, plots } = this.desk;
-    history.replaceState(history.state, '', `#${encode({ scenes: variants, plots: plots.state })}`);
+    const { course, variants, plots } = this.desk;
+    const { asOpened } = this;
+    if (course.isOn && !asOpened.lesson) return;
+    const scenes = course.isOn ? [asOpened] : variants.map(({ file, text }) => ({ file, text }));
+    history.replaceState(history.state, '', `#${encode({ scenes, plots: plots.state })}`);
   }
 
   showCode() {

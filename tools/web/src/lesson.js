@@ -8,13 +8,14 @@ import { t } from './messages.js';
 import { predictionOf } from './prediction.js';
 import { paragraphs, richText } from './rich-text.js';
 
-const levels = { beginner: t('beginner'), intermediate: t('intermediate'), advanced: t('advanced') };
+export const levels = { beginner: t('beginner'), intermediate: t('intermediate'), advanced: t('advanced') };
 export const aboutLesson = ({ level, minutes }) => t('{level}, {minutes} minutes', { level: levels[level] ?? level, minutes });
 
 export class Lesson {
-  // `box`: the part of the page for it; `others()`: the netlists with a lesson, in their order; onopen(file), onleave(): the student goes on.
-  constructor(box, { sliders, language, others, onopen, onleave }) {
-    Object.assign(this, { box, sliders, language, others, onopen, onleave });
+  // `box`: the part of the page for it; `others()`: the netlists with a lesson, in their order; onopen(file), onagain(), onleave(): the student goes
+  // on; onedit(): the teacher does.
+  constructor(box, { sliders, language, others, onopen, onagain, onleave, onedit }) {
+    Object.assign(this, { box, sliders, language, others, onopen, onagain, onleave, onedit });
     this.told = null;
   }
 
@@ -32,9 +33,9 @@ export class Lesson {
     return this.told && { prediction: this.prediction?.state ?? null, original: this.shown && this.original };
   }
 
-  // Starts the lesson of a netlist that has just been opened; `left`: its state, to go on. Mistakes in the lesson's file are shown in its
-  // place.
-  async begin({ text, file, opened = text }, left) {
+  // Starts the lesson of a netlist that has just been opened: its `lesson`, or else the one of the folder. `left`: its state, to go on. Mistakes in
+  // the lesson's file are shown in its place.
+  async begin({ text, file, opened = text, lesson }, left) {
     this.end();
     Object.assign(this, { left, opened });
     document.body.classList.add('in-lesson');
@@ -43,7 +44,7 @@ export class Lesson {
     let told = null;
     let mistakes = [];
     try {
-      await task({ task: 'lesson', text: opened, file, language: this.language }, (message) => {
+      await task({ task: 'lesson', text: opened, file, language: this.language, lesson: lesson?.text }, (message) => {
         if (message.kind === 'lesson') told = message;
         if (message.kind === 'mistakes') mistakes = message.items.map((item) => item.text);
         if (message.kind === 'failed') mistakes = [message.message];
@@ -52,7 +53,7 @@ export class Lesson {
       mistakes = [error.message];
     }
     if (this.asked !== asked) return;
-    if (told) this.start(told, file);
+    if (told) this.start(told, file, lesson?.isOwn);
     else this.refuse(mistakes);
   }
 
@@ -62,6 +63,7 @@ export class Lesson {
     this.chart = null;
     document.body.classList.remove('in-lesson');
     this.conceal(false);
+    if (this.body) this.box.hidden = true;
     this.body?.remove();
     this.body = null;
   }
@@ -83,14 +85,16 @@ export class Lesson {
     this.put(mistakes.length ? mistakes.map((text) => element('pre', { class: 'bad', tabindex: '0' }, text)) : element('p', { class: 'note' }, t('This netlist has no lesson.')));
   }
 
-  start(told, file) {
+  start(told, file, isOwn) {
     this.told = told;
     this.file = file;
     this.prediction = null;
     this.shown = null;
     this.names = [...new Set(told.presets.flatMap(({ values }) => Object.keys(values)))];
     this.put(
-      element('div', { class: 'lesson-head' }, element('span', { class: 'note' }, aboutLesson(told)), element('button', { type: 'button', onclick: () => this.onleave(file) }, t('Leave the lesson'))),
+      element('div', { class: 'lesson-head' }, element('span', { class: 'note' }, aboutLesson(told)),
+        isOwn && element('button', { type: 'button', onclick: () => this.onedit() }, t('Edit the lesson')),
+        element('button', { type: 'button', onclick: () => this.onleave() }, t('Leave the lesson'))),
       told.demo.question ? element('p', { class: 'question' }, richText(told.demo.question)) : null,
       (this.ask = element('section', {}, element('h3', {}, t('1. Predict')), paragraphs(told.predict.prompt))),
       (this.steps = element('div')));
@@ -133,11 +137,11 @@ export class Lesson {
     this.verdict = element('div', { role: 'status' });
     this.steps.append(...[
       element('section', {}, element('h3', { tabindex: '-1' }, t('2. Compare')), chart, this.verdict),
-      element('section', {}, element('h3', {}, t('3. Try')), element('p', {}, richText(told.demo.change)), told.presets.length ? this.presets() : null),
-      element('section', {}, element('h3', {}, t('4. Explain')), element('p', {}, t('Say it in your own words first. Then compare.')),
-        this.fold(t('See'), [element('p', {}, richText(told.demo.see))]), this.fold(t('Why'), [element('p', {}, richText(told.demo.why)), ...paragraphs(told.explain)])),
+      element('section', {}, element('h3', {}, t('3. Try')), element('p', {}, told.demo.change ? richText(told.demo.change) : t('Change a value with its slider.')), told.presets.length ? this.presets() : null),
+      (told.demo.see || told.demo.why || told.explain) && element('section', {}, element('h3', {}, t('4. Explain')), element('p', {}, t('Say it in your own words first. Then compare.')),
+        this.fold(t('See'), paragraphs(told.demo.see)), this.fold(t('Why'), [...paragraphs(told.demo.why), ...paragraphs(told.explain)])),
       this.onward(),
-    ]);
+    ].filter(Boolean));
     this.chartHost = chart;
     this.shown = true;
     this.judged = false;
@@ -146,7 +150,7 @@ export class Lesson {
   }
 
   fold(name, content) {
-    return element('details', {}, element('summary', {}, name), content);
+    return content.length ? element('details', {}, element('summary', {}, name), content) : null;
   }
 
   presets() {
@@ -163,7 +167,7 @@ export class Lesson {
     const all = this.others();
     const next = all[all.findIndex(({ file }) => file === this.file) + 1];
     return element('p', { class: 'onward' },
-      element('button', { type: 'button', onclick: () => this.onopen(this.file) }, t('Begin this lesson again')),
+      element('button', { type: 'button', onclick: () => this.onagain() }, t('Begin this lesson again')),
       next ? element('button', { type: 'button', onclick: () => this.onopen(next.file) }, t('Next lesson: {title}', { title: next.title })) : null);
   }
 
@@ -182,7 +186,9 @@ export class Lesson {
       this.verdict.append(...this.prediction.verdict(this.runCurve()));
       this.judged = true;
     }
-    const curves = [{ name: t('the run'), ...this.runCurve(), style: 0 }, { name: t('your prediction'), x: this.prediction.curve.x, y: this.prediction.curve.y, style: 1, dash: 1 }];
+    const curves = [{ name: t('the run'), ...this.runCurve(), style: 0 }];
+    const { curve } = this.prediction;
+    if (curve.y) curves.push({ name: t('your prediction'), x: curve.x, y: curve.y, style: 1, dash: 1 });
     if (this.chart) {
       this.chart.update(curves);
       return;

@@ -41,10 +41,10 @@ function inflated(text, dictionary) {
   return new TextDecoder('utf-8', { fatal: true }).decode(whole);
 }
 
-// The text after the #: scenes and the choice of plots.
+// The text after the #: scenes and the choice of plots. The lesson of a scene comes behind it, as a part without a name.
 export function encode({ scenes, plots }) {
   const isChosen = Object.values(plots).some((value) => value !== null);
-  const content = bytes([isChosen ? JSON.stringify(plots) : '', ...scenes.flatMap(({ file, text }) => [file, text])].join(between));
+  const content = bytes([isChosen ? JSON.stringify(plots) : '', ...scenes.flatMap(({ file, text, lesson }) => [file, text, ...(lesson ? ['', lesson.text] : [])])].join(between));
   const all = Object.entries(dictionaries).map(([letter, dictionary]) => `s=${letter}${letters(deflateSync(content, { level: 9, mem: 12, dictionary }))}`);
   return all.sort((one, other) => one.length - other.length)[0];
 }
@@ -57,6 +57,9 @@ export function decode(kind, value) {
   const [plots, ...parts] = inflated(value.slice(1), dictionary).split(between);
   if (parts.length < 2 || parts.length % 2 !== 0) throw new Error(t('the link lacks a part'));
   const scenes = [];
-  for (let k = 0; k < parts.length; k += 2) scenes.push({ file: parts[k], text: parts[k + 1] });
+  for (let k = 0; k < parts.length; k += 2) {
+    if (parts[k] || !k) scenes.push({ file: parts[k], text: parts[k + 1] });
+    else scenes.at(-1).lesson = { text: parts[k + 1] };
+  }
   return { scenes, plots: plots ? JSON.parse(plots) : {} };
 }

@@ -57,7 +57,9 @@ class Playground {
       sliders: this.sliders, language,
       others: () => this.files.lessons(),
       onopen: (file) => this.files.openFile(file, true, true),
-      onleave: (file) => this.files.openFile(file, true),
+      onagain: () => this.files.reopen(true),
+      onleave: () => this.files.reopen(false),
+      onedit: () => this.files.editLesson(),
     });
     this.drawing = new Drawing(this, { drawing: this.parts.drawing, bar: this.parts.draw, cards: this.parts.inspector });
     const { presentation } = this;
@@ -187,9 +189,10 @@ class Playground {
   // Texts and runs.
 
   // `version` is that of the file of the folder that has this text, or has the text `opened`, from which this one was made.
-  load(k, { text, file, version = '', opened = text }) {
+  // `lesson` { text, version, isOwn }: one that is not that of the folder, the version of which it replaces; `isOwn`: it was written here.
+  load(k, { text, file, version = '', opened = text, lesson = null }) {
     const variant = this.variants[k];
-    Object.assign(variant, { text, file, version, opened, answered: null, fresh: true });
+    Object.assign(variant, { text, file, version, opened, lesson, answered: null, fresh: true });
     this.folds.stop();
     if (k === this.active) {
       this.editor.load(text);
@@ -385,12 +388,12 @@ class Playground {
       this.offerBack(t('The comparison has ended. Undo brings it back.'));
       return;
     }
-    const { text, file, version, opened, data, shown } = this.current;
+    const { text, file, version, opened, data, shown, lesson } = this.current;
     const other = this.variant('B', text, file);
     Object.assign(other, { data, shown });
     this.variants.push(other);
     this.edit(1);
-    this.load(1, { text, file, version, opened });
+    this.load(1, { text, file, version, opened, lesson });
   }
 
   endComparison() {

@@ -1,21 +1,22 @@
 // A student's prediction of a run: the choice of one of several curves, or a sketched curve.
 import { element, freshId } from './dom.js';
 import { t } from './messages.js';
-import { richText } from './rich-text.js';
+import { paragraphs, richText } from './rich-text.js';
 import { Sketch } from './sketch.js';
 
 const [width, height] = [180, 110]; // of the little picture of a choice
 
-// Pictures of curves to the same scale.
+// Pictures of curves to the same scale; of a choice without a curve nothing.
 function pictures(choices) {
   const ends = (key) => {
-    const values = choices.flatMap((choice) => choice[key]);
+    const values = choices.flatMap((choice) => choice[key] ?? []);
     const [low, high] = [Math.min(...values), Math.max(...values)];
     return high > low ? [low, high] : [low - 1, high + 1];
   };
   const [x, y] = [ends('x'), ends('y')];
   const place = (value, [low, high], size) => (8 + ((value - low) / (high - low)) * (size - 16)).toFixed(1);
   return choices.map((choice) => {
+    if (!choice.y) return null;
     const host = element('span', { class: 'choice-picture', 'aria-hidden': 'true' });
     const points = choice.x.map((value, k) => `${place(value, x, width)} ${(height - place(choice.y[k], y, height)).toFixed(1)}`);
     const zero = y[0] <= 0 && y[1] >= 0 ? `<path class="choice-zero" d="M8 ${(height - place(0, y, height)).toFixed(1)}H${width - 8}"/>` : '';
@@ -36,7 +37,7 @@ class Choice {
       return input;
     });
     this.host = element('div', { class: 'choices', role: 'radiogroup', 'aria-label': t('Which curve do you expect?') },
-      choices.map((choice, k) => element('label', {}, this.inputs[k], drawn[k], element('span', {}, richText(choice.text)))));
+      choices.map((choice, k) => element('label', {}, [this.inputs[k], drawn[k], element('span', {}, richText(choice.text))])));
   }
 
   get isComplete() {
@@ -63,7 +64,7 @@ class Choice {
   // The comment on the choice, next to the run.
   verdict() {
     const { right, reply } = this.curve;
-    return [element('p', { class: right ? 'holds' : 'fails' }, right ? t('That is what happens.') : t('That is not what happens.')), element('p', {}, richText(reply))];
+    return [element('p', { class: right ? 'holds' : 'fails' }, right ? t('That is what happens.') : t('That is not what happens.')), ...paragraphs(reply)];
   }
 }
 

@@ -1,11 +1,11 @@
-// Texts with formulas: KaTeX sets text between dollar signs; text between backticks is set as code.
+// Texts with formulas, also those of strangers, in links: KaTeX sets text between dollar signs; text between backticks is set as code.
 import katex from 'katex';
 import 'katex/dist/katex.min.css';
 import { element } from './dom.js';
 
 function formula(tex) {
   const host = element('span', { class: 'formula' });
-  katex.render(tex, host, { throwOnError: false, output: 'htmlAndMathml' });
+  katex.render(tex, host, { throwOnError: false, output: 'htmlAndMathml', maxSize: 20 });
   return host;
 }
 

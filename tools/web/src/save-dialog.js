@@ -25,9 +25,14 @@ export class SaveDialog {
 
   // Under the name by which it was opened or saved; one that has none yet is asked for it.
   save(netlist) {
+    if (netlist.version) this.write(netlist);
+    else this.saveAs(netlist);
+  }
+
+  // Under its name.
+  write(netlist) {
     this.begin(netlist);
-    if (netlist.version) this.put(netlist.version);
-    else this.show();
+    this.put(netlist.version);
   }
 
   saveAs(netlist) {

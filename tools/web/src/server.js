@@ -46,9 +46,11 @@ export async function save(file, text, version) {
   return (await (await post('/api/save', { file, text, version })).json()).version;
 }
 
+let turn = 0; // of the newest task: the server must not take an older one that arrives later for a newer one
+
 // Gives a task; onmessage gets each message as it comes.
 export async function task(request, onmessage, signal) {
-  const response = await post('/api/task', request, signal);
+  const response = await post('/api/task', { ...request, turn: ++turn }, signal);
   const reader = response.body.pipeThrough(new TextDecoderStream()).getReader();
   let rest = '';
   for (;;) {
