@@ -78,7 +78,7 @@ export class LessonDialog {
     this.explain = field(t('Explanation afterwards'), lines(explain), ['explain']);
     this.level = field(t('Level'), list(Object.entries(levels), level), ['level']);
     this.minutes = field(t('Minutes'), line(minutes), ['minutes']);
-    this.about = t('A value with its unit is a level line. A formula has the time t and the parameters ({names}). Empty: no curve.', { names: names.join(', ') });
+    this.about = t('A value with its unit is a level line. A formula may contain {names}. Empty: no curve.', { names: ['t', ...names].join(', ') });
     this.right = freshId('right');
     this.choices = [];
     for (const choice of choices ?? Array(fewest).fill({})) this.add(choice);
