@@ -187,8 +187,9 @@ bool StickForces::lossy(const Shared& shared) const {
 
 /// Forces of least norm among all that the losses hold. What is lost to a side is the larger one of two lines over the force of the train, one
 /// for each node that may drive: with one line chosen for each loss and side the problem is convex, and the least norm of all choices
-/// is that of the whole. False if no choice holds the load, or there are too many. `found`: the forces of the trains that sliders do not lock.
-bool StickForces::meet_losses(Shared& shared, const std::vector<double>& found) const {
+/// is that of the whole. False if no choice holds the load, there are too many, or the bearings of a self-locking gear help the load, so that its line falls
+/// below 0. `found`: the forces of the trains that sliders do not lock.
+bool StickForces::share_within_losses(Shared& shared, const std::vector<double>& found) const {
   struct Lossy { std::size_t slider, train, place; };  // `place`: of the train's force
   std::vector<Lossy> lossy;
   for (std::size_t i = 0; i < shared.sliders.size(); ++i) {
@@ -208,6 +209,14 @@ bool StickForces::meet_losses(Shared& shared, const std::vector<double>& found) 
   std::vector<LeastNorm::Bound> contradiction;
   double least = std::numeric_limits<double>::infinity();
   for (unsigned choice = 0; choice < 1U << (2 * lossy.size()); ++choice) {
+    // Without bearings all lines meet in 0: one node drives to one side, the other one to the other.
+    const auto is_redundant = [&](std::size_t k) {
+      const Loss& loss = inputs_.loss(lossy[k].train);
+      return loss.bearing_a == 0 && loss.bearing_b == 0 && (choice >> (2 * k) & 1) == (choice >> (2 * k + 1) & 1);
+    };
+    bool redundant = false;
+    for (std::size_t k = 0; k < lossy.size(); ++k) redundant = redundant || is_redundant(k);
+    if (redundant) continue;
     problem.following.clear();
     for (std::size_t k = 0; k < lossy.size(); ++k) {
       const auto& [slider, train, place] = lossy[k];
@@ -219,7 +228,7 @@ bool StickForces::meet_losses(Shared& shared, const std::vector<double>& found) 
     if (!problem.solve_within(shared.load, force, contradiction) || !contradiction.empty()) continue;
     double norm = 0;
     for (const double f : force) norm += f * f;
-    // A self-locking gear whose bearings help the load holds none of it: its lines do not meet in 0.
+    // A line below 0, where 0 was taken, may hold less.
     const bool holds = std::all_of(lossy.begin(), lossy.end(), [&](const Lossy& l) {
       const int side = force[l.slider] < 0 ? -1 : 1;
       return std::abs(force[l.slider]) <= inputs_.loss(l.train).lost(side, force[l.place]) + numerics::balance_roundoff * largest(force);
@@ -236,10 +245,10 @@ bool StickForces::meet_losses(Shared& shared, const std::vector<double>& found) 
   return true;
 }
 
-/// Forces within bounds that follow from the forces of the trains. Where the load exceeds them, the forces of trains are tried until their
-/// bounds fit. `found`: the forces of the trains that sliders do not lock.
+/// Forces within bounds that follow from the forces of the trains. Where they are not shared within losses, as just beyond the bounds, the forces of
+/// trains are tried until their bounds fit. `found`: the forces of the trains that sliders do not lock.
 bool StickForces::solve_with_losses(double t, Shared& shared, std::vector<double> found) const {
-  if (meet_losses(shared, found)) return true;
+  if (share_within_losses(shared, found)) return true;
   const auto bounds = [&](const std::vector<double>* forces) {
     for (std::size_t i = 0; i < shared.sliders.size(); ++i) {
       const int train = network_.sliders[shared.sliders[i]].train;
@@ -283,8 +292,8 @@ void StickForces::Shared::bound(std::size_t slider, double low, double high) {
   with_trains.high[slider] = high;
 }
 
-/// A force beyond its bound by round-off is set to it, where forces of trains decide on the bound; one that is further beyond comes nearer by as
-/// much, so that the force is continuous and its guard does not flicker.
+/// Where forces of trains decide on bounds, a force beyond its bound is moved towards it by `roundoff`, at most onto it. It stays continuous in time, so that
+/// its guard does not flicker.
 void StickForces::Shared::meet_bounds(double roundoff) {
   for (std::size_t k = 0; !trains.empty() && k < sliders.size(); ++k) {
     const double within = std::clamp(force[k], with_trains.low[k], with_trains.high[k]);

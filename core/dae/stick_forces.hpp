@@ -38,7 +38,7 @@ class StickForces {
   };
   bool lossy(const Shared& shared) const;
   bool solve_with_losses(double t, Shared& shared, std::vector<double> found) const;
-  bool meet_losses(Shared& shared, const std::vector<double>& found) const;
+  bool share_within_losses(Shared& shared, const std::vector<double>& found) const;
   [[noreturn]] void report_unbalanced(double t, const Shared& shared) const;
   const Network& network_;
   const Structure& structure_;

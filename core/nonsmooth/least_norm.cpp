@@ -80,10 +80,14 @@ class DualActiveSet {
           }
         }
         const double length = std::min(full, partial);
-        // Where bounds leave no room, as that of a force between 0 and a share of itself, they are met but for the round-off of the steps so far.
+        // Where opposite bounds coincide, as those of a force between 0 and a share of itself, they are met but for the round-off of the steps so far. The
+        // search begins again with a bound that is wider by that.
         const double over = -slack(worst, x);
         if (std::isinf(length) && over <= numerics::balance_roundoff * (1 + std::abs(worst.slope)) * x.lpNorm<Eigen::Infinity>()) {
           bounds_[2 * static_cast<std::size_t>(worst.force) + (worst.side > 0 ? 0 : 1)].width += over;
+          x = without_bounds_;
+          active_.clear();
+          multipliers_.clear();
           break;
         }
         if (std::isinf(length)) {

@@ -22,7 +22,7 @@ struct LeastNorm {
     std::size_t force, other;
     double low_slope, high_slope;
   };
-  std::vector<Following> following;  ///< `solve` does not know them
+  std::vector<Following> following;  ///< for `solve_within` alone; empty for `solve`
 
   /// `load`: of each row [N], finite. Writes the forces; false if round-off prevents an answer.
   bool solve(const std::vector<double>& load, std::vector<double>& force) const;

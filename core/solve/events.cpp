@@ -162,11 +162,7 @@ void NetworkEvents::begin(double t, const double* y, const double* yp) {
   // not fire again at once.
   const auto more = [&](double g) { return numerics::rearm_violation * margin(g); };
   for (std::size_t k = 0; k < law_margin_.size(); ++k) law_margin_[k] = more(at_begin_[k]);
-  for (std::size_t i = 0; i < sliders_.size(); ++i) {
-    const int k = sliders_[i];
-    const double g = at_begin_[law_margin_.size() + i];
-    margin_[at(k)] = margin(g);
-  }
+  for (std::size_t i = 0; i < sliders_.size(); ++i) margin_[at(sliders_[i])] = more(at_begin_[law_margin_.size() + i]);
   const std::size_t losses = events_.size() - loss_margin_.size(), limits = losses - limit_margin_.size();
   for (std::size_t k = 0; k < limit_margin_.size(); ++k) limit_margin_[k] = margin(at_begin_[limits + k]);
   for (std::size_t k = 0; k < loss_margin_.size(); ++k) loss_margin_[k] = margin(at_begin_[losses + k]);

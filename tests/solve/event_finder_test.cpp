@@ -37,6 +37,7 @@ TEST_CASE("a function that round-off has put at or below 0 at the beginning fire
       CHECK(*fallen <= 1e-13);
       CHECK_FALSE(event(at_begin, 1, long_step));
     }
+    CHECK_FALSE(event(0, 0, long_step));
     const std::optional<double> halfway = event(1, -1, long_step);
     REQUIRE(halfway);
     CHECK(*halfway == doctest::Approx(0.5).epsilon(1e-14));
