@@ -37,10 +37,6 @@ constexpr std::array<std::array<double, parts + 1>, places> lagrange() {
 EventFinder::EventFinder(const EventFunctions& functions, bool locate, Look look)
     : functions_(functions), locate_(locate), look_(std::move(look)), fired_(at(functions.count()), 0), left_(fired_.size(), 0), between_(left_), right_(left_), band_(left_) {}
 
-void EventFinder::arm() {
-  for (double& function : left_) function = std::max(function, just_above_0);
-}
-
 void EventFinder::take(int which) {
   std::fill(fired_.begin(), fired_.end(), 0);
   fired_[at(which)] = 1;
@@ -116,7 +112,7 @@ std::optional<double> EventFinder::minimum_near(std::size_t function, double t, 
 /// True if some function has fallen through 0 since `left_`.
 bool EventFinder::falls(const std::vector<double>& now) const {
   for (std::size_t k = 0; k < left_.size(); ++k) {
-    if (falls(left_[k], now[k])) return true;
+    if (left_[k] > 0 && now[k] <= 0) return true;
   }
   return false;
 }
@@ -124,7 +120,7 @@ bool EventFinder::falls(const std::vector<double>& now) const {
 /// With the functions at both times in `left_` and `right_`.
 std::optional<double> EventFinder::fire(double begin, double end) {
   if (locate_ && falls(right_)) end = locate(begin, end);
-  const auto has_fired = [&](double before, double now) { return falls(before, now) || (!locate_ && now <= 0) ? 1 : 0; };
+  const auto has_fired = [&](double before, double now) { return now <= 0 && (before > 0 || !locate_) ? 1 : 0; };
   std::transform(left_.begin(), left_.end(), right_.begin(), fired_.begin(), has_fired);
   left_.swap(right_);
   return std::find(fired_.begin(), fired_.end(), 1) != fired_.end() ? std::optional(end) : std::nullopt;

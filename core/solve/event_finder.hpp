@@ -1,7 +1,6 @@
 #pragma once
 
 #include <functional>
-#include <limits>
 #include <optional>
 #include <vector>
 
@@ -31,8 +30,6 @@ class EventFinder {
   bool none() const { return fired_.empty(); }
   /// The event functions at the beginning of the next step; the ends of steps that have no event are the beginnings of the next.
   std::vector<double>& at_begin() { return left_; }
-  /// Arms the functions `at_begin`. A guard is above 0 where it is armed, but for round-off: one that is not fires as soon as it is below 0.
-  void arm();
   /// For steps that are short beside what changes: the functions are looked at at the end. Returns the time of the event, just behind it.
   std::optional<double> in_step(double begin, double end);
   /// For long steps: a function may fall through 0 and come back.
@@ -43,12 +40,10 @@ class EventFinder {
   const std::vector<int>& fired() const { return fired_; }
 
  private:
-  static constexpr double just_above_0 = std::numeric_limits<double>::min();  ///< of a function that round-off has put at 0 or below as it was armed
   struct Seen { double time; std::vector<double> functions; };
   Seen look_at(double t) const;
   void look_at_dips(std::vector<Seen>& seen) const;
   std::optional<double> minimum_near(std::size_t function, double t, double begin, double end, double apart) const;
-  static bool falls(double before, double now) { return before > 0 && (now < 0 || (now == 0 && before != just_above_0)); }
   bool falls(const std::vector<double>& now) const;
   std::optional<double> fire(double begin, double end);
   double locate(double begin, double end);

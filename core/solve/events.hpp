@@ -92,7 +92,10 @@ class NetworkEvents final : public EventFunctions {
   double looked_at(std::size_t i, const Dae::View& view) const;
   double slider_function(int slider, const Dae::View& view) const;
   bool moved_apart(int slider) const;
+  double largest_force(int slider) const;
   double force_band(int slider) const;
+  /// True for a sticking slider whose guard compares its force with its bounds.
+  bool balances_force(int slider) const;
   double limit_function(std::size_t limit) const;
   double loss_function(std::size_t loss, const Dae::View& view) const;
   /// Guard k of the sliders, then of the limits, in the state of the view.

@@ -174,11 +174,6 @@ struct Integrator::Implementation {
 
   void evaluate(std::vector<double>& functions) { event_functions.evaluate(refine(time), y.data(), yp.data(), functions.data()); }
 
-  void arm() {
-    evaluate(finder.at_begin());
-    finder.arm();
-  }
-
   /// Interpolates y and y' at a time within the last step.
   void go_to(double t) {
     time = t;
@@ -281,7 +276,7 @@ void Integrator::restart(TimePoint t, const std::vector<double>& y, const std::v
     require(IDASetStopTime(s.ida, s.length()), "IDASetStopTime");
     s.newton.restart();
   }
-  if (!s.finder.none()) s.arm();
+  if (!s.finder.none()) s.evaluate(s.finder.at_begin());
   s.started = true;
   s.rejected = 0;
 }
@@ -290,7 +285,7 @@ void Integrator::go_on(TimePoint stop) {
   Implementation& s = *impl_;
   s.stop = stop;
   s.keep_time();
-  if (!s.finder.none()) s.arm();
+  if (!s.finder.none()) s.evaluate(s.finder.at_begin());
 }
 
 Integrator::Outcome Integrator::step() {
