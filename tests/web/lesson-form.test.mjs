@@ -251,6 +251,9 @@ test('the lesson is saved beside its netlist, and the gallery has it', async () 
   await page.keyboard.press('Control+s');
   await page.locator('dialog.save[open]').getByText('there is already').waitFor();
   assert.equal(readFileSync(inFolder('plain.lesson'), 'utf8'), own);
+  const question = page.locator('dialog.save');
+  assert.match(await question.locator('.why').textContent(), /there is already a lesson `plain\.lesson`.*Overwrite the lesson, or cancel/);
+  assert.deepEqual([await question.getByRole('textbox').getAttribute('readonly'), await question.getByRole('button').allTextContents()], ['', ['Cancel', 'Overwrite it']]);
   await page.locator('dialog.save').getByRole('button', { name: 'Overwrite it' }).click();
   await page.locator('.toast', { hasText: 'Saved as plain.lesson.' }).waitFor();
   const saved = readFileSync(inFolder('plain.lesson'), 'utf8');
@@ -262,8 +265,16 @@ test('the lesson is saved beside its netlist, and the gallery has it', async () 
   await offered(page);
   await page.getByRole('button', { name: 'Gallery' }).click();
   assert.equal(await page.locator('.card[data-file="plain.toml"] .card-lesson').textContent(), 'Lesson: beginner, 10 minutes');
-  // A new name is that of both files.
+  // A netlist is not saved under the name of a lesson.
   await page.keyboard.press('Escape');
+  await choose(page, 'Save', 'Save in the folder as …');
+  await question.getByRole('textbox').fill('plain.lesson');
+  await question.getByRole('button', { name: 'Save', exact: true }).click();
+  await question.getByText('the name of a netlist ends in .toml').waitFor();
+  assert.equal(await question.getByRole('button', { name: 'Overwrite it' }).count(), 0);
+  await question.getByRole('button', { name: 'Cancel' }).click();
+  assert.equal(readFileSync(inFolder('plain.lesson'), 'utf8'), saved);
+  // A new name is that of both files.
   await choose(page, 'Save', 'Edit the lesson');
   await box(page, 'Minutes').fill('7');
   await pass(page);
