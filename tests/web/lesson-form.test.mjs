@@ -31,7 +31,10 @@ right   = true
 text.en = "It vanishes."
 text.de = "Es verschwindet."
 y       = "Tc*exp(-t/T)"
-reply.en = "Nothing releases it."
+reply.en = """
+Nothing releases it.
+
+It would have to be unloaded."""
 
 [[presets]]
 name   = "dry"
@@ -168,6 +171,9 @@ test('the curve of an answer is drawn, and drawn anew', async () => {
   const sketch = form(page).locator('.sketch');
   await sketch.focus();
   for (let k = 0; k < 5; ++k) await page.keyboard.press('ArrowUp');
+  await show(page);
+  assert.equal(await whyOf(page, box(page, 'Its curve', 0)), 'Draw to the end of the run.');
+  await sketch.focus();
   await page.keyboard.press('End');
   assert.equal(await box(page, 'Its curve', 0).inputValue(), '');
   await accessible(page, 'the form, with a sketch');
@@ -310,7 +316,7 @@ test('editing keeps presets, comments and the texts in other languages', async (
   await pass(page);
   await save();
   const expected = own.replace('"What does the torque do?"', '"What does the torque do in the end?"').replace('"Tc + B w"', '"Tc and B w"').replace('right   = true\n', '')
-    .replace('"advanced"', '"beginner"').replace('"Nothing releases it."\n', '"Nothing releases it."\nright = true\n\n[[predict.choices]]\ntext = { en = "It doubles." }\n');
+    .replace('"advanced"', '"beginner"').replace('unloaded."""\n', 'unloaded."""\nright = true\n\n[[predict.choices]]\ntext = { en = "It doubles." }\n');
   assert.equal(readFileSync(inFolder('taught.lesson'), 'utf8'), expected);
   // In German: only the German texts change. An answer in between is removed.
   await page.locator('select.language').selectOption('de');

@@ -26,7 +26,7 @@ function field(label, input, path, about = '') {
 }
 
 const line = (value) => element('input', { type: 'text', value, autocomplete: 'off' });
-const lines = (value) => element('textarea', { rows: '3' }, value);
+const lines = (value, rows = '3') => element('textarea', { rows }, value);
 const list = (options, value) => element('select', {}, options.map(([key, text]) => element('option', { value: key, selected: key === value }, text)));
 
 export class LessonDialog {
@@ -107,7 +107,7 @@ export class LessonDialog {
   }
 
   add({ from, text = '', y = '', drawn, reply = '', right = false }) {
-    const choice = { from, text: field(t('Answer'), line(text)), y: field(t('Its curve'), line(y), null, this.about), reply: field(t('Reply to it'), line(reply)),
+    const choice = { from, text: field(t('Answer'), lines(text, '1')), y: field(t('Its curve'), line(y), null, this.about), reply: field(t('Reply to it'), lines(reply, '2')),
       right: element('input', { type: 'radio', name: this.right, checked: right, oninput: () => this.way.refuse('') }) };
     choice.pen = element('button', { type: 'button', onclick: () => this.draw(choice) }, t('Draw'));
     choice.y.input.after(choice.pen);
@@ -125,11 +125,15 @@ export class LessonDialog {
     const [low, high] = this.endsOf(path);
     const range = [Math.min(low, ...(before ?? [])), Math.max(high, ...(before ?? []))];
     const board = predictionOf({ start, stop, range }, () => {
-      choice.drawn = board.isComplete ? board.curve.y : [];
+      const isEmpty = board.state.every((value) => value === null);
+      choice.drawn = isEmpty ? [] : board.curve.y;
+      choice.isUnfinished = !isEmpty && !board.isComplete;
       choice.y.input.value = '';
+      choice.y.refuse('');
     }, this.recordOf(path));
     if (before) board.restore(board.curve.y.map((_, k, { length }) => before[Math.round((k / (length - 1)) * (before.length - 1))]));
     choice.drawn = undefined; // until it changes
+    choice.isUnfinished = false;
     choice.pen.hidden = true;
     choice.board = board.host;
     choice.pen.after(board.host);
@@ -139,6 +143,7 @@ export class LessonDialog {
   rub(choice) {
     choice.board?.remove();
     choice.drawn = choice.y.input.value ? undefined : [];
+    choice.isUnfinished = false;
     choice.pen.hidden = false;
   }
 
@@ -170,6 +175,7 @@ export class LessonDialog {
     const refused = new Map();
     const needed = [this.prompt, ...(this.isChoice ? this.choices.map(({ text }) => text) : [this.low, this.high]), this.minutes];
     for (const part of needed) if (!typed(part)) refused.set(part, t('A value is missing.'));
+    for (const { isUnfinished, y } of this.isChoice ? this.choices : []) if (isUnfinished) refused.set(y, t('Draw to the end of the run.'));
     if (refused.size) return this.refuse(refused);
     const choices = this.isChoice ? this.choices.map(({ from, text, y, drawn, reply, right }) => ({ from, text: typed(text), y: typed(y), drawn, reply: typed(reply), right: right.checked })) : null;
     let isRight = false;
