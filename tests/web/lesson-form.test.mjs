@@ -338,6 +338,32 @@ test('editing keeps presets, comments and the texts in other languages', async (
   await close();
 });
 
+test('presets and sliders of a lesson are not saved, an edit by hand is', async () => {
+  writeFileSync(inFolder('kept.toml'), withT);
+  writeFileSync(inFolder('kept.lesson'), own);
+  const { page, close } = await open('#lesson=kept.toml', {}, offered);
+  await page.getByRole('radio').first().check();
+  await page.getByRole('button', { name: 'Compare with the run' }).click();
+  await redrawn(page, () => page.getByRole('button', { name: 'dry', exact: true }).click());
+  assert.match(await netlist(page), /B {2}= "0 N/);
+  const save = async () => {
+    await page.keyboard.press('Control+s');
+    await page.locator('.toast', { hasText: 'Saved as kept' }).waitFor();
+    return readFileSync(inFolder('kept.toml'), 'utf8');
+  };
+  assert.equal(await save(), withT);
+  await page.getByRole('button', { name: 'as at first' }).click();
+  await page.keyboard.press('e');
+  await page.locator('.cm-content').click();
+  await page.keyboard.press('Control+Home');
+  await redrawn(page, () => page.keyboard.insertText('# By hand.\n'));
+  await choose(page, 'Save', 'Edit the lesson');
+  await pass(page);
+  assert.equal(await netlist(page), `# By hand.\n${withT}`);
+  assert.equal(await save(), `# By hand.\n${withT}`);
+  await close();
+});
+
 test('a hostile lesson in a link does no harm', async () => {
   const lesson = (text) => `level = "beginner"\nminutes = 1\n[predict]\nprompt = ${JSON.stringify(text)}\ny = "k1.force"\nrange = [0, 1]\n`;
   const link = (text) => `#scene=${deflateRawSync(JSON.stringify({ scenes: [{ text: bingham, file: 'mine.toml', lesson: { text, isOwn: true } }], plots: {} })).toString('base64url')}`;
