@@ -38,7 +38,8 @@ export class LessonDialog {
   // For a netlist and its run, `data`. `lesson`: the text of its lesson, '' for a new one, which predicts the record `first`. What was typed before
   // is still there. Throws an error if the lesson is no TOML.
   open({ file, text, lesson, data, first = data.records[0]?.path }) {
-    const key = JSON.stringify([file, lesson, data.records.map(({ path }) => path)]);
+    const { start, stop, sliders } = data.scene;
+    const key = JSON.stringify([file, lesson, data.records.map(({ path }) => path), start, stop, sliders.map(({ name }) => name)]);
     this.netlist = { file, text };
     this.data = data;
     if (key !== this.key) this.build(lesson, first);
@@ -89,7 +90,10 @@ export class LessonDialog {
       axis.hidden = this.isChoice;
     };
     this.way.input.addEventListener('change', showWay);
-    this.record.input.addEventListener('change', () => ([this.low.input.value, this.high.input.value] = this.axisOf(this.record.input.value)));
+    this.record.input.addEventListener('change', () => {
+      [this.low.input.value, this.high.input.value] = this.axisOf(this.record.input.value);
+      for (const choice of this.choices) if (choice.board) this.eraseDrawing(choice); // it is of the quantity before
+    });
     this.wrong = element('output', { class: 'why' });
     this.dialog?.remove();
     this.dialog = element('dialog', { class: 'lesson-form', 'aria-labelledby': 'lesson-title' },
@@ -111,7 +115,7 @@ export class LessonDialog {
       right: element('input', { type: 'radio', name: this.right, checked: right, oninput: () => this.way.refuse('') }) };
     choice.pen = element('button', { type: 'button', onclick: () => this.draw(choice) }, t('Draw'));
     choice.y.input.after(choice.pen);
-    choice.y.input.addEventListener('input', () => this.rub(choice));
+    choice.y.input.addEventListener('input', () => this.eraseDrawing(choice));
     if (drawn?.length) this.draw(choice, drawn);
     this.choices.push(choice);
     this.showChoices();
@@ -140,8 +144,9 @@ export class LessonDialog {
   }
 
   // What is written replaces what was drawn.
-  rub(choice) {
+  eraseDrawing(choice) {
     choice.board?.remove();
+    choice.board = null;
     choice.drawn = choice.y.input.value ? undefined : [];
     choice.isUnfinished = false;
     choice.pen.hidden = false;
