@@ -379,6 +379,11 @@ test('a hostile lesson in a link does no harm', async () => {
   const { page: other, close: end } = await open(link(lesson('x').replace(/range.*\n/, '') + many), {}, done);
   await other.getByText('`choices` has 2000 items, and may have 50').first().waitFor();
   await end();
+  const { page: plain, close: finish } = await open(link(lesson('x').replace(/range.*\n/, 'choices = ["a", "b"]\n')), {}, done);
+  const refusal = plain.locator('.lesson-steps pre.bad').first();
+  await refusal.waitFor();
+  assert.match(await refusal.textContent(), /mine\.lesson:6:12: error: /);
+  await finish();
   // A text that is no TOML is refused with a reason.
   const { page: broken, close: stop } = await open(link('level = ['), {}, done);
   await choose(broken, 'Save', 'Edit the lesson');
