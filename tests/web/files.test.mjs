@@ -112,7 +112,7 @@ test('a name that is none is told so, and nothing is written', async () => {
     await dialog(page).locator('button', { hasText: 'Cancel' }).click();
   }
   assert.deepEqual(readdirSync(desk.folder).sort(), ['bingham.toml', 'more']);
-  await close([refused, refused, refused]);
+  await close([refused, refused]);
 });
 
 test('a page that is loaded anew before its netlist has come is not taken for one that somebody has changed', async () => {

@@ -31,7 +31,10 @@ right   = true
 text.en = "It vanishes."
 text.de = "Es verschwindet."
 y       = "Tc*exp(-t/T)"
-reply.en = "Nothing releases it."
+reply.en = """
+Nothing releases it.
+
+It would have to be unloaded."""
 
 [[presets]]
 name   = "dry"
@@ -168,6 +171,9 @@ test('the curve of an answer is drawn, and drawn anew', async () => {
   const sketch = form(page).locator('.sketch');
   await sketch.focus();
   for (let k = 0; k < 5; ++k) await page.keyboard.press('ArrowUp');
+  await show(page);
+  assert.equal(await whyOf(page, box(page, 'Its curve', 0)), 'Draw to the end of the run.');
+  await sketch.focus();
   await page.keyboard.press('End');
   assert.equal(await box(page, 'Its curve', 0).inputValue(), '');
   await accessible(page, 'the form, with a sketch');
@@ -251,6 +257,9 @@ test('the lesson is saved beside its netlist, and the gallery has it', async () 
   await page.keyboard.press('Control+s');
   await page.locator('dialog.save[open]').getByText('there is already').waitFor();
   assert.equal(readFileSync(inFolder('plain.lesson'), 'utf8'), own);
+  const question = page.locator('dialog.save');
+  assert.match(await question.locator('.why').textContent(), /there is already a lesson `plain\.lesson`.*Overwrite the lesson, or cancel/);
+  assert.deepEqual([await question.getByRole('textbox').getAttribute('readonly'), await question.getByRole('button').allTextContents()], ['', ['Cancel', 'Overwrite it']]);
   await page.locator('dialog.save').getByRole('button', { name: 'Overwrite it' }).click();
   await page.locator('.toast', { hasText: 'Saved as plain.lesson.' }).waitFor();
   const saved = readFileSync(inFolder('plain.lesson'), 'utf8');
@@ -262,8 +271,16 @@ test('the lesson is saved beside its netlist, and the gallery has it', async () 
   await offered(page);
   await page.getByRole('button', { name: 'Gallery' }).click();
   assert.equal(await page.locator('.card[data-file="plain.toml"] .card-lesson').textContent(), 'Lesson: beginner, 10 minutes');
-  // A new name is that of both files.
+  // A netlist is not saved under the name of a lesson.
   await page.keyboard.press('Escape');
+  await choose(page, 'Save', 'Save in the folder as …');
+  await question.getByRole('textbox').fill('plain.lesson');
+  await question.getByRole('button', { name: 'Save', exact: true }).click();
+  await question.getByText('the name of a netlist ends in .toml').waitFor();
+  assert.equal(await question.getByRole('button', { name: 'Overwrite it' }).count(), 0);
+  await question.getByRole('button', { name: 'Cancel' }).click();
+  assert.equal(readFileSync(inFolder('plain.lesson'), 'utf8'), saved);
+  // A new name is that of both files.
   await choose(page, 'Save', 'Edit the lesson');
   await box(page, 'Minutes').fill('7');
   await pass(page);
@@ -299,7 +316,7 @@ test('editing keeps presets, comments and the texts in other languages', async (
   await pass(page);
   await save();
   const expected = own.replace('"What does the torque do?"', '"What does the torque do in the end?"').replace('"Tc + B w"', '"Tc and B w"').replace('right   = true\n', '')
-    .replace('"advanced"', '"beginner"').replace('"Nothing releases it."\n', '"Nothing releases it."\nright = true\n\n[[predict.choices]]\ntext = { en = "It doubles." }\n');
+    .replace('"advanced"', '"beginner"').replace('unloaded."""\n', 'unloaded."""\nright = true\n\n[[predict.choices]]\ntext = { en = "It doubles." }\n');
   assert.equal(readFileSync(inFolder('taught.lesson'), 'utf8'), expected);
   // In German: only the German texts change. An answer in between is removed.
   await page.locator('select.language').selectOption('de');
@@ -321,6 +338,32 @@ test('editing keeps presets, comments and the texts in other languages', async (
   await close();
 });
 
+test('presets and sliders of a lesson are not saved, an edit by hand is', async () => {
+  writeFileSync(inFolder('kept.toml'), withT);
+  writeFileSync(inFolder('kept.lesson'), own);
+  const { page, close } = await open('#lesson=kept.toml', {}, offered);
+  await page.getByRole('radio').first().check();
+  await page.getByRole('button', { name: 'Compare with the run' }).click();
+  await redrawn(page, () => page.getByRole('button', { name: 'dry', exact: true }).click());
+  assert.match(await netlist(page), /B {2}= "0 N/);
+  const save = async () => {
+    await page.keyboard.press('Control+s');
+    await page.locator('.toast', { hasText: 'Saved as kept' }).waitFor();
+    return readFileSync(inFolder('kept.toml'), 'utf8');
+  };
+  assert.equal(await save(), withT);
+  await page.getByRole('button', { name: 'as at first' }).click();
+  await page.keyboard.press('e');
+  await page.locator('.cm-content').click();
+  await page.keyboard.press('Control+Home');
+  await redrawn(page, () => page.keyboard.insertText('# By hand.\n'));
+  await choose(page, 'Save', 'Edit the lesson');
+  await pass(page);
+  assert.equal(await netlist(page), `# By hand.\n${withT}`);
+  assert.equal(await save(), `# By hand.\n${withT}`);
+  await close();
+});
+
 test('a hostile lesson in a link does no harm', async () => {
   const lesson = (text) => `level = "beginner"\nminutes = 1\n[predict]\nprompt = ${JSON.stringify(text)}\ny = "k1.force"\nrange = [0, 1]\n`;
   const link = (text) => `#scene=${deflateRawSync(JSON.stringify({ scenes: [{ text: bingham, file: 'mine.toml', lesson: { text, isOwn: true } }], plots: {} })).toString('base64url')}`;
@@ -336,6 +379,11 @@ test('a hostile lesson in a link does no harm', async () => {
   const { page: other, close: end } = await open(link(lesson('x').replace(/range.*\n/, '') + many), {}, done);
   await other.getByText('`choices` has 2000 items, and may have 50').first().waitFor();
   await end();
+  const { page: plain, close: finish } = await open(link(lesson('x').replace(/range.*\n/, 'choices = ["a", "b"]\n')), {}, done);
+  const refusal = plain.locator('.lesson-steps pre.bad').first();
+  await refusal.waitFor();
+  assert.match(await refusal.textContent(), /mine\.lesson:6:12: error: /);
+  await finish();
   // A text that is no TOML is refused with a reason.
   const { page: broken, close: stop } = await open(link('level = ['), {}, done);
   await choose(broken, 'Save', 'Edit the lesson');

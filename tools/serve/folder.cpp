@@ -132,7 +132,7 @@ Folder::Written Folder::write(const std::string& file, const std::string& text, 
   const std::lock_guard lock(writing_);
   const std::optional<std::string> there = version_there(parent.get(), name, why);
   if (!there) return {Outcome::not_here, fmt::format("`{}` is there already, and is not overwritten: {}", file, why), ""};
-  if (!there->empty() && version.empty()) return {Outcome::other_there, fmt::format("there is already a netlist `{}`", file), *there};
+  if (!there->empty() && version.empty()) return {Outcome::other_there, fmt::format("there is already a {} `{}`", path.extension() == ".lesson" ? "lesson" : "netlist", file), *there};
   if (!there->empty() && version != *there) return {Outcome::other_there, fmt::format("`{}` has changed since it was opened here", file), *there};
   why = put(parent.get(), name, text);
   if (!why.empty()) return {Outcome::failed, "it cannot be written: " + why, ""};

@@ -53,7 +53,7 @@ class LessonReader {
   json read_values(const TomlValue& table, const std::string& name);
   std::optional<std::vector<double>> course_of(const TomlEntry& form, const std::string& record);
   std::optional<std::vector<double>> drawn_course(const TomlEntry& form);
-  std::optional<Scene> scene_with(const std::string& override, const std::string& record, const TomlValue& source, const std::string& what);
+  std::optional<Scene> scene_with(const std::vector<std::string>& overrides, const std::string& record, const TomlValue& source, const std::string& what);
 
   const SentScene& netlist_;
   const std::vector<const FileOffer*>& offers_;
@@ -176,8 +176,10 @@ json LessonReader::read_prediction(const TomlEntry& entry) {
   if (!expect_array(choices->value, "`choices`", diagnostics_, "[[predict.choices]]") || !expect_few(*choices)) return told;
   int right = 0;
   for (const TomlValue& item : choices->value.items) {
-    told["choices"].push_back(read_choice(item, x, y));
-    if (told["choices"].back().value("right", false)) ++right;
+    json choice = read_choice(item, x, y);
+    if (!choice.is_object()) return told;  // Already reported.
+    if (choice.value("right", false)) ++right;
+    told["choices"].push_back(std::move(choice));
   }
   if (choices->value.items.size() < 2) diagnostics_.error(choices->value.spot, "there is nothing to choose: `choices` needs two or more");
   if (right != 1) diagnostics_.error(choices->spot, fmt::format("of the choices {} are right, and one must be", right), "mark the right one: right = true");
@@ -214,10 +216,10 @@ json LessonReader::read_choice(const TomlValue& table, const std::string& x, con
   return told;
 }
 
-/// The netlist with an override and a record. A mistake in the override is reported at `source` in the lesson.
-std::optional<Scene> LessonReader::scene_with(const std::string& override, const std::string& record, const TomlValue& source, const std::string& what) {
+/// The netlist with overrides and a record. A mistake in an override is reported at `source` in the lesson.
+std::optional<Scene> LessonReader::scene_with(const std::vector<std::string>& overrides, const std::string& record, const TomlValue& source, const std::string& what) {
   ReadOptions options;
-  options.overrides = {override};
+  options.overrides = overrides;
   options.claims = false;
   if (!record.empty()) options.records = {record};
   ReadResult read = read_sent(netlist_, offers_, options);
@@ -236,7 +238,7 @@ std::optional<std::vector<double>> LessonReader::course_of(const TomlEntry& form
     return {};
   }
   const std::string text = form.value.is_string() ? quoted(form.value.text) : fmt::format("{}", form.value.number);
-  const auto scene = scene_with(fmt::format("exact={{{} = {}}}", quoted(record), text), record, form.value, "the curve `" + form.key + "`");
+  const auto scene = scene_with({fmt::format("exact={{{} = {}}}", quoted(record), text)}, record, form.value, "the curve `" + form.key + "`");
   if (!scene || scene->exact.empty()) return {};
   std::vector<double> values;
   for (int k = 0; k <= curve_points; ++k) values.push_back(scene->exact.front().value(scene->start + (scene->stop - scene->start) * k / curve_points));
@@ -293,6 +295,7 @@ json LessonReader::read_values(const TomlValue& table, const std::string& name) 
   std::vector<std::string> known;
   for (const report::AdjustableNumber& each : report::adjustable_numbers(plain_)) known.push_back(each.group + '.' + each.name);
   json told = json::object();
+  std::vector<std::string> overrides;
   for (const TomlEntry& entry : table.entries) {
     if (std::find(known.begin(), known.end(), entry.key) == known.end()) {
       diagnostics_.error(entry.spot, fmt::format("`{}` is no number of the netlist that has a slider", entry.key), did_you_mean(entry.key, known, "a parameter is named `parameters.NAME`"));
@@ -301,8 +304,10 @@ json LessonReader::read_values(const TomlValue& table, const std::string& name) 
     const bool is_number = entry.value.kind == TomlValue::Kind::number;
     if (!is_number && !expect_string(entry.value, "`" + entry.key + "`", diagnostics_)) continue;
     const std::string text = is_number ? fmt::format("{}", entry.value.number) : quoted(entry.value.text);
-    if (scene_with(entry.key + '=' + text, "", entry.value, fmt::format("the preset `{}`", name))) told[entry.key] = text;
+    overrides.push_back(entry.key + '=' + text);
+    told[entry.key] = text;
   }
+  if (!overrides.empty()) scene_with(overrides, "", table, fmt::format("the preset `{}`", name));
   return told;
 }
 

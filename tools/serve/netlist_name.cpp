@@ -33,7 +33,7 @@ std::string fault_of_part(const std::string& part) {
 }  // namespace
 
 std::string fault_of_name(const std::string& file) {
-  if (file.empty()) return "a netlist needs a name, such as `mine.toml`";
+  if (file.empty()) return "a file needs a name, such as `mine.toml`";
   if (file.size() > longest) return fmt::format("a name may have {} bytes, not {}", longest, file.size());
   for (const char32_t character : decode(file))
     if (std::string fault = fault_of_character(character); !fault.empty()) return fault;
@@ -41,8 +41,8 @@ std::string fault_of_name(const std::string& file) {
   if (name.is_absolute()) return fmt::format("`{}` begins with `/`: names are counted from the folder", file);
   for (const fs::path& part : name)
     if (std::string fault = fault_of_part(part.string()); !fault.empty()) return fault;
-  if (!name.has_filename()) return fmt::format("`{}` is the name of a folder: one of a netlist ends in .toml", file);
-  if (name.extension() != ".toml" && name.extension() != ".lesson") return fmt::format("the name of a netlist ends in .toml: `{}.toml`?", file);
+  if (!name.has_filename()) return fmt::format("`{}` is the name of a folder: that of a netlist ends in .toml, that of a lesson in .lesson", file);
+  if (name.extension() != ".toml" && name.extension() != ".lesson") return fmt::format("the name of a netlist ends in .toml, that of a lesson in .lesson: `{}.toml`?", file);
   return "";
 }
 

@@ -32,7 +32,7 @@ const look = EditorView.theme({
 });
 
 export class Editor {
-  // onchange(text, byUser, isOther): `isOther`: another text has taken the place of all of it; onmove(changes): positions have moved;
+  // onchange(text, byUser, isOther, byHand): `isOther`: another text has taken the place of all of it; `byHand`: not by a slider or a preset; onmove(changes): positions have moved;
   // onundo(): returns whether it has undone something other than a change of the text; `extensions`: of CodeMirror.
   constructor(host, { onchange, onmove, onundo, extensions = [] }) {
     this.extensions = extensions;
@@ -56,7 +56,7 @@ export class Editor {
           let isOther = false;
           const { length } = update.startState.doc;
           update.changes.iterChangedRanges((from, to) => (isOther ||= length > 0 && from === 0 && to === length));
-          this.onchange(this.text, !this.quiet, isOther);
+          this.onchange(this.text, !this.quiet, isOther, update.transactions.some((each) => each.docChanged && !['slide', 'undo', 'redo'].some((kind) => each.isUserEvent(kind))));
         }),
       ],
     });

@@ -19,7 +19,7 @@ export class Files {
     this.desk = desk;
     this.folder = { scenes: [], may_be_written: false };
     this.gallery = new Gallery({ onopen: (file, isLesson) => this.openFile(file, true, isLesson), onnew: () => this.desk.beginAnew() });
-    this.saving = new SaveDialog({ onsaved: (saved) => this.saved(saved) });
+    this.saving = new SaveDialog();
     this.writing = new LessonDialog({ ondone: (text) => this.preview(text) });
     addEventListener('popstate', (event) => this.openAddress(event.state));
     addEventListener('beforeunload', () => this.keep());
@@ -96,11 +96,12 @@ export class Files {
     this.desk.begin({ scenes: [scene], lesson });
   }
 
-  // The scene, without the changes that the steps of a lesson have made.
+  // The scene that is saved and sent. While a lesson is open its steps change values by presets and sliders: they are left out, unless the text
+  // was edited by hand.
   get asOpened() {
     const { current, course } = this.desk;
-    const { text, opened, file, version, lesson } = current;
-    return { text: course.isOn ? opened : text, file, version, lesson };
+    const { text, opened, file, version, lesson, byHand } = current;
+    return { text: course.isOn && !byHand ? opened : text, file, version, lesson };
   }
 
   // Makes a lesson of the netlist, or edits the one that it has.
@@ -108,7 +109,7 @@ export class Files {
     const { desk } = this;
     const { current } = desk;
     const { file, version, data, stale } = current;
-    if (!data.scene || stale) return desk.answer(t('The netlist has mistakes.'), true);
+    if (!data.scene || stale) return desk.answer(data.failed?.message ?? t('The netlist has mistakes.'), true);
     try {
       const name = lessonFileOf(file);
       this.edited = current.lesson ?? (this.hasLesson ? await open(name) : { text: '', version: '' });
@@ -149,7 +150,7 @@ export class Files {
     const { variants, active, plots, course } = this.desk;
     const lesson = course.state;
     const unsaved = always || lesson || variants.some(({ text, opened, lesson: own }) => own || text !== opened);
-    const scenes = variants.map(({ text, file, version, opened, lesson: own }) => ({ text, file, version, opened, lesson: own }));
+    const scenes = variants.map(({ text, file, version, opened, byHand, lesson: own }) => ({ text, file, version, opened, byHand, lesson: own }));
     try {
       history.replaceState(unsaved ? { scenes, active, plots: plots.state, lesson } : null, '', location.href);
     } catch {
@@ -162,11 +163,12 @@ export class Files {
   }
 
   saves() {
-    const { file, version, text, lesson } = this.desk.current;
+    const { current } = this.desk;
+    const { file, version, lesson } = current;
     const here = this.folder.may_be_written;
     return [
       here && version && { label: t('Save as {file}', { file: lesson ? `${file}, ${lessonFileOf(file)}` : file }), act: () => this.save() },
-      here && { label: t('Save in the folder as …'), act: () => this.saving.saveAs({ file, version, text }) },
+      here && { label: t('Save in the folder as …'), act: () => this.saving.saveAs(this.asOpened, (saved) => this.savedNetlist(current, saved)) },
       { label: t('Download the netlist'), act: () => this.downloadNetlist() },
       lesson && { label: t('Download the lesson'), act: () => download(new Blob([lesson.text], { type: 'application/toml' }), `${this.name}.lesson`) },
       { label: lesson || this.hasLesson ? t('Edit the lesson') : t('Make a lesson'), act: () => this.editLesson() },
@@ -174,25 +176,31 @@ export class Files {
   }
 
   save() {
-    if (this.folder.may_be_written) this.saving.save(this.desk.current);
+    const { current } = this.desk;
+    if (this.folder.may_be_written) this.saving.save(this.asOpened, (saved) => this.savedNetlist(current, saved));
     else this.downloadNetlist();
   }
 
   downloadNetlist() {
-    download(new Blob([this.desk.current.text], { type: 'application/toml' }), `${this.name}.toml`);
+    download(new Blob([this.asOpened.text], { type: 'application/toml' }), `${this.name}.toml`);
   }
 
-  // The lesson of a netlist is saved after it, beside it.
-  async saved({ file, version, text }) {
+  // The netlist of a variant has been saved; its lesson is saved after it, beside it.
+  savedNetlist(variant, { file, version, text }) {
+    const lesson = variant.lesson && { ...variant.lesson, version: file === variant.file ? variant.lesson.version ?? '' : '' };
+    Object.assign(variant, { file, version, lesson, opened: text, byHand: false });
+    if (lesson) this.saving.saveLesson({ ...lesson, file: lessonFileOf(file) }, (saved) => this.savedLesson(variant, saved));
+    return this.saved(file);
+  }
+
+  savedLesson(variant, { file }) {
+    variant.lesson = null;
+    return this.saved(file);
+  }
+
+  async saved(file) {
     const { desk } = this;
     const { current } = desk;
-    const { lesson } = current;
-    if (file.endsWith('.lesson')) current.lesson = null;
-    else {
-      if (lesson && file !== current.file) lesson.version = '';
-      Object.assign(current, { file, version, opened: text });
-      if (lesson) this.saving.write({ file: lessonFileOf(file), text: lesson.text, version: lesson.version ?? '' });
-    }
     this.nameInAddress(current.file, false, desk.course.isOn);
     this.keep();
     desk.showTitle(current.data.scene?.title);

@@ -26,7 +26,7 @@ function field(label, input, path, about = '') {
 }
 
 const line = (value) => element('input', { type: 'text', value, autocomplete: 'off' });
-const lines = (value) => element('textarea', { rows: '3' }, value);
+const lines = (value, rows = '3') => element('textarea', { rows }, value);
 const list = (options, value) => element('select', {}, options.map(([key, text]) => element('option', { value: key, selected: key === value }, text)));
 
 export class LessonDialog {
@@ -38,7 +38,8 @@ export class LessonDialog {
   // For a netlist and its run, `data`. `lesson`: the text of its lesson, '' for a new one, which predicts the record `first`. What was typed before
   // is still there. Throws an error if the lesson is no TOML.
   open({ file, text, lesson, data, first = data.records[0]?.path }) {
-    const key = JSON.stringify([file, lesson, data.records.map(({ path }) => path)]);
+    const { start, stop, sliders } = data.scene;
+    const key = JSON.stringify([file, lesson, data.records.map(({ path }) => path), start, stop, sliders.map(({ name }) => name)]);
     this.netlist = { file, text };
     this.data = data;
     if (key !== this.key) this.build(lesson, first);
@@ -89,7 +90,10 @@ export class LessonDialog {
       axis.hidden = this.isChoice;
     };
     this.way.input.addEventListener('change', showWay);
-    this.record.input.addEventListener('change', () => ([this.low.input.value, this.high.input.value] = this.axisOf(this.record.input.value)));
+    this.record.input.addEventListener('change', () => {
+      [this.low.input.value, this.high.input.value] = this.axisOf(this.record.input.value);
+      for (const choice of this.choices) if (choice.board) this.eraseDrawing(choice); // it is of the quantity before
+    });
     this.wrong = element('output', { class: 'why' });
     this.dialog?.remove();
     this.dialog = element('dialog', { class: 'lesson-form', 'aria-labelledby': 'lesson-title' },
@@ -107,11 +111,11 @@ export class LessonDialog {
   }
 
   add({ from, text = '', y = '', drawn, reply = '', right = false }) {
-    const choice = { from, text: field(t('Answer'), line(text)), y: field(t('Its curve'), line(y), null, this.about), reply: field(t('Reply to it'), line(reply)),
+    const choice = { from, text: field(t('Answer'), lines(text, '1')), y: field(t('Its curve'), line(y), null, this.about), reply: field(t('Reply to it'), lines(reply, '2')),
       right: element('input', { type: 'radio', name: this.right, checked: right, oninput: () => this.way.refuse('') }) };
     choice.pen = element('button', { type: 'button', onclick: () => this.draw(choice) }, t('Draw'));
     choice.y.input.after(choice.pen);
-    choice.y.input.addEventListener('input', () => this.rub(choice));
+    choice.y.input.addEventListener('input', () => this.eraseDrawing(choice));
     if (drawn?.length) this.draw(choice, drawn);
     this.choices.push(choice);
     this.showChoices();
@@ -125,20 +129,26 @@ export class LessonDialog {
     const [low, high] = this.endsOf(path);
     const range = [Math.min(low, ...(before ?? [])), Math.max(high, ...(before ?? []))];
     const board = predictionOf({ start, stop, range }, () => {
-      choice.drawn = board.isComplete ? board.curve.y : [];
+      const isEmpty = board.state.every((value) => value === null);
+      choice.drawn = isEmpty ? [] : board.curve.y;
+      choice.isUnfinished = !isEmpty && !board.isComplete;
       choice.y.input.value = '';
+      choice.y.refuse('');
     }, this.recordOf(path));
     if (before) board.restore(board.curve.y.map((_, k, { length }) => before[Math.round((k / (length - 1)) * (before.length - 1))]));
     choice.drawn = undefined; // until it changes
+    choice.isUnfinished = false;
     choice.pen.hidden = true;
     choice.board = board.host;
     choice.pen.after(board.host);
   }
 
   // What is written replaces what was drawn.
-  rub(choice) {
+  eraseDrawing(choice) {
     choice.board?.remove();
+    choice.board = null;
     choice.drawn = choice.y.input.value ? undefined : [];
+    choice.isUnfinished = false;
     choice.pen.hidden = false;
   }
 
@@ -170,6 +180,7 @@ export class LessonDialog {
     const refused = new Map();
     const needed = [this.prompt, ...(this.isChoice ? this.choices.map(({ text }) => text) : [this.low, this.high]), this.minutes];
     for (const part of needed) if (!typed(part)) refused.set(part, t('A value is missing.'));
+    for (const { isUnfinished, y } of this.isChoice ? this.choices : []) if (isUnfinished) refused.set(y, t('Draw to the end of the run.'));
     if (refused.size) return this.refuse(refused);
     const choices = this.isChoice ? this.choices.map(({ from, text, y, drawn, reply, right }) => ({ from, text: typed(text), y: typed(y), drawn, reply: typed(reply), right: right.checked })) : null;
     let isRight = false;

@@ -110,6 +110,7 @@ export class LessonText {
       this.putText([...path, 'text'], choice.text);
       if (choice.drawn) this.put([...path, 'y'], choice.drawn.length ? `[${choice.drawn.map((value) => Number(value.toPrecision(3))).join(', ')}]` : '');
       else this.change([...path, 'y'], choice.y);
+      if (!this.read([...path, 'y']) && !choice.drawn?.length) this.put([...path, 'x'], ''); // a curve has both sides or none
       const right = choice.right ? 'true' : '';
       this.change([...path, 'right'], right, right);
       this.putText([...path, 'reply'], choice.reply);

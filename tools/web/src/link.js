@@ -44,7 +44,7 @@ function inflated(text, dictionary) {
 // The text after the #: scenes and the choice of plots. The lesson of a scene comes behind it, as a part without a name.
 export function encode({ scenes, plots }) {
   const isChosen = Object.values(plots).some((value) => value !== null);
-  const content = bytes([isChosen ? JSON.stringify(plots) : '', ...scenes.flatMap(({ file, text, lesson }) => [file, text, ...(lesson ? ['', lesson.text] : [])])].join(between));
+  const content = bytes([isChosen ? JSON.stringify(plots) : '', ...scenes.flatMap(({ file, text, lesson }) => [file || 'scene.toml', text, ...(lesson ? ['', lesson.text] : [])])].join(between));
   const all = Object.entries(dictionaries).map(([letter, dictionary]) => `s=${letter}${letters(deflateSync(content, { level: 9, mem: 12, dictionary }))}`);
   return all.sort((one, other) => one.length - other.length)[0];
 }

@@ -40,7 +40,7 @@ class Playground {
     this.files = new Files(this);
     this.build(host);
     this.editor = new Editor(this.parts.editor, {
-      onchange: (text, typed, isOther) => this.edited(text, typed, isOther),
+      onchange: (text, typed, isOther, byHand) => this.edited(text, typed, isOther, byHand),
       onmove: (changes) => {
         this.sliders?.move(changes);
         this.drawing?.inspector.move(changes);
@@ -189,10 +189,11 @@ class Playground {
   // Texts and runs.
 
   // `version` is that of the file of the folder that has this text, or has the text `opened`, from which this one was made.
+  // `byHand`: it was edited otherwise than by sliders and presets.
   // `lesson` { text, version, isOwn }: one that is not that of the folder, the version of which it replaces; `isOwn`: it was written here.
-  load(k, { text, file, version = '', opened = text, lesson = null }) {
+  load(k, { text, file, version = '', opened = text, lesson = null, byHand = false }) {
     const variant = this.variants[k];
-    Object.assign(variant, { text, file, version, opened, lesson, answered: null, fresh: true });
+    Object.assign(variant, { text, file, version, opened, lesson, byHand, answered: null, fresh: true });
     this.folds.stop();
     if (k === this.active) {
       this.editor.load(text);
@@ -224,8 +225,9 @@ class Playground {
     variant.fresh = false;
   }
 
-  edited(text, typed, isOther) {
+  edited(text, typed, isOther, byHand) {
     const variant = this.current;
+    variant.byHand = text !== variant.opened && (variant.byHand || byHand);
     variant.text = text;
     if (isOther) {
       variant.fresh = true;

@@ -1,65 +1,69 @@
-// Saves a netlist in the folder, and asks before it replaces another one.
+// Saves a netlist or its lesson in the folder, and asks before it replaces another file.
 import { save } from './api.js';
 import { element } from './dom.js';
 import { t } from './messages.js';
 
 export class SaveDialog {
-  // onsaved({ file, version, text }): it is there.
-  constructor({ onsaved }) {
-    this.onsaved = onsaved;
-    this.name = element('input', { type: 'text', 'aria-label': t('Name of the netlist in the folder'), spellcheck: 'false', autocomplete: 'off' });
+  constructor() {
+    this.name = element('input', { type: 'text', spellcheck: 'false', autocomplete: 'off' });
     this.why = element('output', { class: 'why', hidden: true });
     this.over = element('button', { type: 'button', class: 'overwrite', hidden: true, onclick: () => this.put(this.there) }, t('Overwrite it'));
     const form = element('form', {}, this.name, this.why,
       element('div', { class: 'dialog-foot' }, element('button', { type: 'button', onclick: () => this.dialog.close() }, t('Cancel')),
         this.over, (this.done = element('button', { type: 'submit' }, t('Save')))));
     this.dialog = element('dialog', { class: 'save', 'aria-labelledby': 'save-title' },
-      element('div', { class: 'dialog-head' }, element('h2', { id: 'save-title' }, t('Save in the folder'))), form);
+      element('div', { class: 'dialog-head' }, (this.title = element('h2', { id: 'save-title' }))), form);
     form.addEventListener('submit', (event) => {
       event.preventDefault();
-      this.put(this.file === this.netlist.file ? this.netlist.version : '');
+      if (!this.isLesson) this.put(this.file === this.saved.file ? this.saved.version : '');
     });
     this.name.addEventListener('input', () => this.tell(''));
     this.dialog.addEventListener('close', () => this.dialog.remove());
   }
 
-  // Under the name by which it was opened or saved; one that has none yet is asked for it.
-  save(netlist) {
-    if (netlist.version) this.write(netlist);
-    else this.saveAs(netlist);
-  }
-
-  // Under its name.
-  write(netlist) {
-    this.begin(netlist);
+  // A netlist { file, version, text }, under the name by which it was opened or saved; asks for the name of a new one.
+  // onsaved({ file, version, text }): the file is written.
+  save(netlist, onsaved) {
+    if (!netlist.version) return this.saveAs(netlist, onsaved);
+    this.begin(netlist, onsaved);
     this.put(netlist.version);
   }
 
-  saveAs(netlist) {
-    this.begin(netlist);
+  saveAs(netlist, onsaved) {
+    this.begin(netlist, onsaved);
     this.show();
   }
 
-  begin(netlist) {
-    this.netlist = netlist;
-    this.name.value = netlist.file;
+  // A lesson { file, version, text }: its name follows from its netlist, so that only the question whether to overwrite is asked.
+  saveLesson(lesson, onsaved) {
+    this.begin(lesson, onsaved, true);
+    this.put(lesson.version);
+  }
+
+  begin(saved, onsaved, isLesson = false) {
+    Object.assign(this, { saved, onsaved, isLesson });
+    this.title.textContent = isLesson ? t('Save the lesson in the folder') : t('Save in the folder');
+    this.name.setAttribute('aria-label', isLesson ? t('Name of the lesson in the folder') : t('Name of the netlist in the folder'));
+    this.name.readOnly = this.done.hidden = isLesson;
+    this.name.value = saved.file;
     this.tell('');
   }
 
-  // The typed name; .toml is added to a name without an ending.
+  // The typed name; .toml is added to the name of a netlist without an ending.
   get file() {
     const name = this.name.value.trim();
     return name && !/\.[^/]*$/.test(name) && !name.endsWith('/') ? `${name}.toml` : name;
   }
 
   async put(version) {
-    const { file } = this;
-    const { text } = this.netlist;
+    const { file, onsaved } = this;
+    const { text } = this.saved;
+    if (!this.isLesson && file && !file.endsWith('.toml')) return this.tell(t('the name of a netlist ends in .toml'));
     this.over.disabled = this.done.disabled = true; // once is enough
     try {
       const written = await save(file, text, version);
       this.dialog.close();
-      this.onsaved({ file, version: written, text });
+      onsaved({ file, version: written, text });
     } catch (error) {
       this.tell(error.message, error.there);
       this.show();
@@ -68,12 +72,13 @@ export class SaveDialog {
     }
   }
 
-  // Shows why the netlist is not saved; `there` is the version of the file that would be replaced.
+  // Shows why the file is not saved; `there` is the version of the file that would be replaced.
   tell(why, there = '') {
     this.there = there;
     this.over.hidden = !there;
     this.why.hidden = !why;
-    this.why.textContent = why && `${t('Not saved: {why}.', { why })}${there ? ` ${t('Overwrite it, or give another name.')}` : ''}`;
+    const question = this.isLesson ? t('Overwrite the lesson, or cancel.') : t('Overwrite it, or give another name.');
+    this.why.textContent = why && `${t('Not saved: {why}.', { why })}${there ? ` ${question}` : ''}`;
     this.name.toggleAttribute('aria-invalid', Boolean(why));
   }
 
@@ -81,6 +86,10 @@ export class SaveDialog {
     if (!this.dialog.open) {
       document.body.append(this.dialog);
       this.dialog.showModal();
+    }
+    if (this.isLesson && this.there) {
+      this.over.focus();
+      return;
     }
     this.name.focus();
     this.name.select();
