@@ -249,7 +249,7 @@ test('a folder that is exchanged for a link meanwhile leads nowhere', async () =
 test('a name that is none is told what is wrong with it', async () => {
   const part = (size) => `${'n'.repeat(size - 5)}.toml`;
   for (const [name, why] of [['', /needs a name/], ['../new.toml', /`\.\.` leads out/], ['/new.toml', /begins with `\/`/], ['link.toml', /`link\.toml` is a symbolic link, and links are not followed/], ['out/new.toml', /`out` is a symbolic link/],
-    ['new.sh', /ends in \.toml: `new\.sh\.toml`/], ['.hidden.lesson', /`\.hidden\.lesson` begins with a dot/], ['../new.lesson', /`\.\.` leads out/], ['new', /ends in \.toml/], ['deep', /ends in \.toml/], ['deep/', /name of a folder/], ['.hidden.toml', /`\.hidden\.toml` begins with a dot/], ['deep/.git/a.toml', /`\.git` begins/],
+    ['new.sh', /ends in \.toml, that of a lesson in \.lesson: `new\.sh\.toml`/], ['.hidden.lesson', /`\.hidden\.lesson` begins with a dot/], ['../new.lesson', /`\.\.` leads out/], ['new', /ends in \.toml/], ['deep', /ends in \.toml/], ['deep/', /name of a folder/], ['.hidden.toml', /`\.hidden\.toml` begins with a dot/], ['deep/.git/a.toml', /`\.git` begins/],
     ['no/such/a.toml', /no folder `no\/such`/], ['a\nb.toml', /`\\n` is a character/], ['a\u0000.toml', /`\\u0000`/], ['a\u001b[2J.toml', /`\\u001B`/], ['a\u202etxt.toml', /`\\u202E`/], ['a\u0085.toml', /`\\u0085`/],
     ['deep\\a.toml', /separated by `\/`/], [part(256), /has 256 bytes, and may have 255/], [`${'deep/'.repeat(300)}a.toml`, /may have 1000 bytes, not 1506/]]) {
     const { status, error } = await save({ file: name, text: 'x' });
