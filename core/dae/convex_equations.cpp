@@ -149,7 +149,8 @@ void ConvexNetwork::share_with_locked_equations(const std::vector<int>& row, con
   for (std::size_t k = 0; k < branches_.size(); ++k) {
     if (branches_[k].stuck) bonds.push_back(k);
   }
-  LeastNorm problem{Eigen::MatrixXd::Zero(load.size(), static_cast<Eigen::Index>(bonds.size() + locked.size())), {}, {}, {}};
+  LeastNorm problem;
+  problem.balance.setZero(load.size(), static_cast<Eigen::Index>(bonds.size() + locked.size()));
   const auto act = [&](int node, Eigen::Index column, double factor) {
     if (row[at(node)] >= 0) problem.balance(row[at(node)], column) += factor;
   };

@@ -52,6 +52,27 @@ double largest(const std::vector<double>& forces) {
   return result;
 }
 
+/// One line of a loss for each direction of slip.
+struct LossLines { Loss::Line up, down; };
+
+/// A slider that stands for the losses of a train, and the choices of its lines. `train_force`: index of the train's force in the problem.
+struct LossySlider {
+  std::size_t slider, train_force;
+  const Loss* loss;
+  std::vector<LossLines> lines;
+};
+
+/// Without bearings all lines meet in 0: one node drives to one side, the other one to the other.
+std::vector<LossLines> lines_of(const Loss& loss) {
+  std::vector<LossLines> result;
+  for (const bool up : {false, true}) {
+    for (const bool down : {false, true}) {
+      if (up != down || loss.bearing_a != 0 || loss.bearing_b != 0) result.push_back({loss.line(1, up), loss.line(-1, down)});
+    }
+  }
+  return result;
+}
+
 }  // namespace
 
 // The problem has the nodes that sticking sliders join. It leaves out the leading node of each cluster, as it does known nodes:
@@ -185,53 +206,47 @@ bool StickForces::lossy(const Shared& shared) const {
   return std::any_of(shared.sliders.begin(), shared.sliders.end(), [&](std::size_t k) { return network_.sliders[k].train >= 0; });
 }
 
-/// Forces of least norm among all that the losses hold. What is lost to a side is the larger one of two lines over the force of the train, one
-/// for each node that may drive: with one line chosen for each loss and side the problem is convex, and the least norm of all choices
+/// Forces of least norm among all that the losses hold. To each side the loss is the larger of two lines over the force of the train, one
+/// for each node that may drive. With one line chosen for each loss and side the problem is convex, and the least norm of all choices
 /// is that of the whole. False if no choice holds the load, there are too many, or the bearings of a self-locking gear help the load, so that its line falls
 /// below 0. `found`: the forces of the trains that sliders do not lock.
 bool StickForces::share_within_losses(Shared& shared, const std::vector<double>& found) const {
-  struct Lossy { std::size_t slider, train, place; };  // `place`: of the train's force
-  std::vector<Lossy> lossy;
+  std::vector<LossySlider> lossy;
+  std::size_t choices = 1;
   for (std::size_t i = 0; i < shared.sliders.size(); ++i) {
     if (network_.sliders[shared.sliders[i]].train < 0) continue;
     const std::size_t train = at(network_.sliders[shared.sliders[i]].train);
+    const Loss& loss = inputs_.loss(train);
     const auto of = std::find(shared.trains.begin(), shared.trains.end(), train);
-    if (of != shared.trains.end()) {
-      lossy.push_back({i, train, shared.sliders.size() + static_cast<std::size_t>(of - shared.trains.begin())});
-    } else {
-      shared.bound(i, -inputs_.loss(train).lost(-1, found[train]), inputs_.loss(train).lost(1, found[train]));
+    if (of == shared.trains.end()) {
+      shared.bound(i, -loss.lost(-1, found[train]), loss.lost(1, found[train]));
+      continue;
     }
+    lossy.push_back({i, shared.sliders.size() + static_cast<std::size_t>(of - shared.trains.begin()), &loss, lines_of(loss)});
+    choices *= lossy.back().lines.size();
+    if (choices > static_cast<std::size_t>(numerics::loss_choices)) return false;
   }
   if (lossy.empty()) return shared.solve();
-  if (2 * lossy.size() > static_cast<std::size_t>(numerics::loss_choices)) return false;
   LeastNorm& problem = shared.with_trains;
   std::vector<double> force;
   std::vector<LeastNorm::Bound> contradiction;
   double least = std::numeric_limits<double>::infinity();
-  for (unsigned choice = 0; choice < 1U << (2 * lossy.size()); ++choice) {
-    // Without bearings all lines meet in 0: one node drives to one side, the other one to the other.
-    const auto is_redundant = [&](std::size_t k) {
-      const Loss& loss = inputs_.loss(lossy[k].train);
-      return loss.bearing_a == 0 && loss.bearing_b == 0 && (choice >> (2 * k) & 1) == (choice >> (2 * k + 1) & 1);
-    };
-    bool redundant = false;
-    for (std::size_t k = 0; k < lossy.size(); ++k) redundant = redundant || is_redundant(k);
-    if (redundant) continue;
+  for (std::size_t choice = 0; choice < choices; ++choice) {
     problem.following.clear();
-    for (std::size_t k = 0; k < lossy.size(); ++k) {
-      const auto& [slider, train, place] = lossy[k];
-      const Loss::Line up = inputs_.loss(train).line(1, (choice >> (2 * k) & 1) != 0), down = inputs_.loss(train).line(-1, (choice >> (2 * k + 1) & 1) != 0);
-      problem.low[slider] = std::min(down.offset, 0.0);
-      problem.high[slider] = std::max(up.offset, 0.0);
-      problem.following.push_back({slider, place, 1 - down.factor, up.factor - 1});
+    std::size_t left = choice;
+    for (const LossySlider& l : lossy) {
+      const LossLines& lines = l.lines[left % l.lines.size()];
+      left /= l.lines.size();
+      shared.bound(l.slider, std::min(lines.down.offset, 0.0), std::max(lines.up.offset, 0.0));
+      problem.following.push_back({l.slider, l.train_force, 1 - lines.down.factor, lines.up.factor - 1});
     }
     if (!problem.solve_within(shared.load, force, contradiction) || !contradiction.empty()) continue;
     double norm = 0;
     for (const double f : force) norm += f * f;
-    // A line below 0, where 0 was taken, may hold less.
-    const bool holds = std::all_of(lossy.begin(), lossy.end(), [&](const Lossy& l) {
-      const int side = force[l.slider] < 0 ? -1 : 1;
-      return std::abs(force[l.slider]) <= inputs_.loss(l.train).lost(side, force[l.place]) + numerics::balance_roundoff * largest(force);
+    // Where a line is below 0, and 0 was taken instead, the loss may be smaller.
+    const double roundoff = numerics::balance_roundoff * largest(force);
+    const bool holds = std::all_of(lossy.begin(), lossy.end(), [&](const LossySlider& l) {
+      return std::abs(force[l.slider]) <= l.loss->lost(force[l.slider] < 0 ? -1 : 1, force[l.train_force]) + roundoff;
     });
     if (!holds || norm >= least) continue;
     least = norm;
@@ -240,7 +255,7 @@ bool StickForces::share_within_losses(Shared& shared, const std::vector<double>&
   problem.following.clear();
   if (std::isinf(least)) return false;
   // Their bounds may be small beside the load, and met within its round-off.
-  for (const auto& [slider, train, place] : lossy) shared.bound(slider, -inputs_.loss(train).lost(-1, shared.force[place]), inputs_.loss(train).lost(1, shared.force[place]));
+  for (const LossySlider& l : lossy) shared.bound(l.slider, -l.loss->lost(-1, shared.force[l.train_force]), l.loss->lost(1, shared.force[l.train_force]));
   shared.meet_bounds(numerics::balance_roundoff * largest(shared.load));
   return true;
 }

@@ -23,8 +23,8 @@ bool TrainForceTrials::agree(const std::vector<double>& found) {
     miss[k] = force - trial_[k];
     size = std::max({size, std::abs(force), std::abs(trial_[k]), loss.lost(1, force), loss.lost(-1, force)});
   }
-  // Within round-off it ends after two trials without more digits. Those on both sides of a kink miss by the same amount, and one of them sticks where the other
-  // one slips.
+  // Within round-off it ends after two trials without more digits. At a kink two trials miss by the same amount, one on each side: in one of them a gear sticks,
+  // in the other it slips.
   const double off = miss.lpNorm<Eigen::Infinity>();
   const bool closer = off < off_, stalls = std::exchange(stalls_, !closer) && !closer;
   if (closer) off_ = off;

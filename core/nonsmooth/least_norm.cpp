@@ -187,7 +187,8 @@ bool LeastNorm::solve(const std::vector<double>& load, std::vector<double>& forc
   std::vector<Eigen::Index> open(low.size());
   std::iota(open.begin(), open.end(), 0);
   while (!open.empty()) {
-    LeastNorm rest{balance(Eigen::all, open), {}, {}, {}};
+    LeastNorm rest;
+    rest.balance = balance(Eigen::all, open);
     for (const Eigen::Index k : open) {
       rest.low.push_back(low[static_cast<std::size_t>(k)]);
       rest.high.push_back(high[static_cast<std::size_t>(k)]);

@@ -33,10 +33,9 @@ void NetworkEvents::refuse_contradictions(double t, const double* y, const doubl
   for (std::size_t i = 0; i < sliders_.size(); ++i) {
     const int k = sliders_[i];
     const bool stuck = dae_.structure().stuck[at(k)];
-    const double bound = dae_.inputs().box(at(k)).largest();
     // Where the bounds are 0 or infinite, round-off has nothing to be compared with.
-    if (stuck && (moved_apart(k) || bound == 0)) continue;
-    const double scale = stuck ? std::max(bound, tolerances_.held_seen(k)) : tolerances_.largest_velocity();
+    if (stuck && (moved_apart(k) || dae_.inputs().box(at(k)).largest() == 0)) continue;
+    const double scale = stuck ? tolerances_.largest_force(k) : tolerances_.largest_velocity();
     const Branch& branch = network.sliders[at(k)].branch;
     const double allowed = numerics::slip_against_force * scale, over = -at_begin_[law_margin_.size() + i];
     if (over <= allowed || (stuck && over <= allowed + numerics::balance_roundoff * force_beside(branch, network, dae_.view(t, y, yp)))) continue;

@@ -82,7 +82,7 @@ void Tolerances::find_slip_noise(const std::vector<double>& slope) {
   const auto noise_at = [&](NodeId node) { return structure.kind[at(node)] == Kind::known ? 0 : held_noise_[at(held_[at(node)])]; };
   for (std::size_t k = 0; k < slip_noise_.size(); ++k) {
     const Branch& b = network_.sliders[k].branch;
-    const double bound = std::max(dae_->inputs().box(k).largest(), held_seen_[k]);
+    const double bound = largest_force(static_cast<int>(k));
     const double dead_band = structure.stuck[k] ? std::max(noise_at(b.a), noise_at(b.b)) : 0;
     slip_noise_[k] = bound > 0 ? std::min(dead_band, numerics::stick_dead_band * local() * bound) : dead_band;
   }

@@ -123,11 +123,8 @@ bool NetworkEvents::moved_apart(int k) const {
 
 bool NetworkEvents::balances_force(int k) const { return dae_.structure().stuck[at(k)] && !moved_apart(k); }
 
-/// Scale of the forces at a sticking slider [N]. A bound of 0, or one that falls, says nothing of the forces that balance there.
-double NetworkEvents::largest_force(int k) const { return std::max(dae_.inputs().box(at(k)).largest(), tolerances_.held_seen(k)); }
-
 /// Dead band of the guard of a sticking slider [N].
-double NetworkEvents::force_band(int k) const { return largest_force(k) * numerics::balance_roundoff + tolerances_.slip_noise(k) + margin_[at(k)]; }
+double NetworkEvents::force_band(int k) const { return tolerances_.largest_force(k) * numerics::balance_roundoff + tolerances_.slip_noise(k) + margin_[at(k)]; }
 
 double NetworkEvents::slider_function(int k, const Dae::View& view) const {
   if (!dae_.structure().stuck[at(k)]) return modes_.slider[at(k)] * view.slider_velocity[at(k)] + tolerances_.slider_noise(k) + margin_[at(k)];
@@ -166,8 +163,8 @@ void NetworkEvents::begin(double t, const double* y, const double* yp) {
   for (std::size_t k = 0; k < law_margin_.size(); ++k) law_margin_[k] = more(at_begin_[k]);
   for (std::size_t i = 0; i < sliders_.size(); ++i) {
     const int k = sliders_[i];
-    // Another evaluation differs by round-off of the forces: a guard that was 0 or below in that one would never fall through 0.
-    const double g = at_begin_[law_margin_.size() + i], least = balances_force(k) ? numerics::equation_roundoff * largest_force(k) : 0;
+    // The search for events evaluates the guard again, with other round-off of the forces. A guard that begins at 0 or below would never fall through 0.
+    const double g = at_begin_[law_margin_.size() + i], least = balances_force(k) ? numerics::equation_roundoff * tolerances_.largest_force(k) : 0;
     margin_[at(k)] = more(g) + (g < least ? least : 0);
   }
   const std::size_t losses = events_.size() - loss_margin_.size(), limits = losses - limit_margin_.size();

@@ -92,7 +92,6 @@ class NetworkEvents final : public EventFunctions {
   double looked_at(std::size_t i, const Dae::View& view) const;
   double slider_function(int slider, const Dae::View& view) const;
   bool moved_apart(int slider) const;
-  double largest_force(int slider) const;
   double force_band(int slider) const;
   /// True for a sticking slider whose guard compares its force with its bounds.
   bool balances_force(int slider) const;

@@ -66,8 +66,9 @@ class Tolerances {
   /// Dead band of the force of a rate branch that is solved for its force [N].
   double force_noise(int rate) const;
   double slider_noise(int slider) const { return slider_noise_[static_cast<std::size_t>(slider)]; }
-  /// Largest force that a slider has had, or the train whose losses it stands for [N].
-  double held_seen(int slider) const { return held_seen_[static_cast<std::size_t>(slider)]; }
+  /// Scale of the force of a slider [N]: its bound, or the largest force that it, or the train whose losses it stands for, has had. A bound of 0, or one that falls,
+  /// says nothing of the forces that balance there.
+  double largest_force(int slider) const { return std::max(dae_->inputs().box(static_cast<std::size_t>(slider)).largest(), held_seen_[static_cast<std::size_t>(slider)]); }
   /// Force by which a sticking slider may exceed its bound because of the errors that steps are allowed [N].
   double slip_noise(int slider) const { return slip_noise_[static_cast<std::size_t>(slider)]; }
 

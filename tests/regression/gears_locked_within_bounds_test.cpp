@@ -30,6 +30,15 @@ worm = { type = "gear", between = ["c", "b"], ratio = 1, efficiency = [0.7663, 0
 push = { type = "torque", at = "b", torque = { sine = 1, frequency = 1 } }
 )";
 
+const char* const winds_up = R"(
+first = { type = "inertia", at = "a", inertia = 1 }
+second = { type = "inertia", at = "b", inertia = 2 }
+worm = { type = "gear", between = ["a", "b"], ratio = -0.9, efficiency = [0.4098, 0] }
+free = { type = "freewheel", between = ["a", "ground"] }
+shaft = { type = "spring", between = ["b", "ground"], stiffness = 34 }
+push = { type = "torque", at = "a", torque = { triangle = 3, frequency = 4 } }
+)";
+
 const std::vector<Locked> scenes{
     {"a rotor comes to rest between its brake and a slider to a gear that is loaded from behind", R"(
 rotor = { type = "inertia", at = "a", inertia = 0.2038 }
@@ -112,14 +121,7 @@ brake = { type = "slider", between = ["b", "ground"], coulomb = 0.6, breakaway =
 shake = { type = "torque", at = "a", torque = { sine = 1, frequency = 2 } }
 push = { type = "torque", at = "b", torque = { sine = 3, frequency = 1, offset = -1 } }
 )"},
-    {"a freewheel in front of a worm gear that winds up a spring", R"(
-first = { type = "inertia", at = "a", inertia = 1 }
-second = { type = "inertia", at = "b", inertia = 2 }
-worm = { type = "gear", between = ["a", "b"], ratio = -0.9, efficiency = [0.4098, 0] }
-free = { type = "freewheel", between = ["a", "ground"] }
-shaft = { type = "spring", between = ["b", "ground"], stiffness = 34 }
-push = { type = "torque", at = "a", torque = { triangle = 3, frequency = 4 } }
-)"},
+    {"a freewheel in front of a worm gear that winds up a spring", winds_up},
     {"bearings that let a shaft slip at the same load again and again, beside a worm gear without a load", R"(
 first = { type = "inertia", at = "a", inertia = 1 }
 second = { type = "inertia", at = "b", inertia = 1 }
@@ -135,19 +137,7 @@ push = { type = "torque", at = "a", torque = { sine = 3, frequency = 1 } }
 
 TEST_CASE("a worm gear lets go as soon as its load exceeds what it holds, at every turn of the load") {
   // Pushed further against the spring, the gear slips from m / 0.4098 on, where m is the torque of the spring by 0.9.
-  const RunTable rows = simulate(R"~(
-domain = "rotation"
-[elements]
-first = { type = "inertia", at = "a", inertia = 1 }
-second = { type = "inertia", at = "b", inertia = 2 }
-worm = { type = "gear", between = ["a", "b"], ratio = -0.9, efficiency = [0.4098, 0] }
-free = { type = "freewheel", between = ["a", "ground"] }
-shaft = { type = "spring", between = ["b", "ground"], stiffness = 34 }
-push = { type = "torque", at = "a", torque = { triangle = 3, frequency = 4 } }
-[simulate]
-stop = 2
-output = { points = 801 }
-)~");
+  const RunTable rows = simulate("domain = \"rotation\"\n[elements]" + std::string(winds_up) + "[simulate]\nstop = 2\noutput = { points = 801 }\n");
   for (std::size_t k = 0; k < rows.time().size(); ++k) {
     CAPTURE(rows.time()[k]);
     const double held = std::abs(rows["shaft.force"][k]) / 0.9 / 0.4098;

@@ -24,7 +24,7 @@ namespace rheonet::test {
 ///              directions is filled in (Filippov's solution)
 class ReferenceLaw {
  public:
-  static constexpr double rounding = 4e-16;  ///< Of a sum, as a fraction of its terms.
+  static constexpr double rounding = 4e-16;  ///< error of a sum by round-off, as a fraction of its terms
   enum class Type { spring, dashpot, slider, sfm, vfm, cfm, freewheel, stop };
   struct Value { double force, slope; };
   struct Interval { double low, high; };
