@@ -391,3 +391,29 @@ test('a hostile lesson in a link does no harm', async () => {
   assert.ok(await broken.locator('.toast').isVisible());
   await stop();
 });
+
+test('curves over another record are kept, and cleared on both sides; going back closes the form', async () => {
+  const { page, close } = await open('#file=plain.toml');
+  const text = own.replace('y         = "k1.force"', 'x         = "k1.displacement"\ny         = "k1.force"').replaceAll(/^(y {7}= .*)$/gm, '$1\nx       = [0, 1]').replace('It stays.', 'It 🙂 stays.');
+  writeFileSync(inFolder('taught.lesson'), text);
+  await page.evaluate(() => (location.hash = '#lesson=taught.toml'));
+  await page.reload();
+  await offered(page);
+  await choose(page, 'Save', 'Edit the lesson');
+  await pass(page);
+  await page.keyboard.press('Control+s');
+  await page.locator('.toast', { hasText: 'Saved as taught.lesson.' }).waitFor();
+  assert.equal(readFileSync(inFolder('taught.lesson'), 'utf8'), text);
+  await choose(page, 'Save', 'Edit the lesson');
+  await box(page, 'Its curve', 0).fill('');
+  await pass(page);
+  await page.keyboard.press('Control+s');
+  await page.locator('.toast', { hasText: 'Saved as taught.lesson.' }).waitFor();
+  const saved = readFileSync(inFolder('taught.lesson'), 'utf8');
+  assert.equal(saved.match(/^x {7}= /gm).length, text.match(/^x {7}= /gm).length - 1);
+  await choose(page, 'Save', 'Edit the lesson');
+  await page.goBack();
+  await form(page).waitFor({ state: 'detached' });
+  writeFileSync(inFolder('taught.lesson'), own);
+  await close();
+});

@@ -205,8 +205,7 @@ json LessonReader::read_choice(const TomlValue& table, const std::string& x, con
   const Scene& scene = *plain_.scene;
   json time = json::array();
   for (int k = 0; k <= curve_points; ++k) time.push_back(scene.start + (scene.stop - scene.start) * k / curve_points);
-  const bool is_drawn = up->value.kind == TomlValue::Kind::array;
-  if (const auto course = is_drawn ? drawn_course(*up) : course_of(*up, y)) told["y"] = *course;
+  if (const auto course = course_of(*up, y)) told["y"] = *course;
   if (across) {
     if (const auto course = course_of(*across, x)) told["x"] = *course;
   } else {
@@ -231,8 +230,9 @@ std::optional<Scene> LessonReader::scene_with(const std::vector<std::string>& ov
   return std::move(read.scene);
 }
 
-/// The values [SI] of an expression of time and the netlist's parameters, as in [exact].
+/// The values [SI] of a drawn curve, or of an expression of time and the netlist's parameters, as in [exact].
 std::optional<std::vector<double>> LessonReader::course_of(const TomlEntry& form, const std::string& record) {
+  if (form.value.kind == TomlValue::Kind::array) return drawn_course(form);
   if (!form.value.is_string() && form.value.kind != TomlValue::Kind::number) {
     diagnostics_.error(form.value.spot, "`" + form.key + "` is an expression, not " + describe(form.value));
     return {};

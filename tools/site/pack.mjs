@@ -12,7 +12,14 @@ const [wasm, sources] = [join(build, 'wasm'), join(build, 'sources')];
 const read = (folder, name) => readFileSync(join(folder, name), 'utf8');
 
 // The page has the fonts of reports already, and gives them to each report (engine.js).
-const withoutFonts = (text) => text.replace(/@font-face\{[^}]*\}/g, '');
+const fontsIn = (text) => text.match(/@font-face\s*\{[^}]*\}/g) ?? [];
+const familiesIn = (text) => fontsIn(text).map((rule) => rule.match(/font-family:\s*([^;}]+)/)[1]);
+function withoutFonts(text) {
+  const there = familiesIn(read(web, 'playground.css'));
+  const missing = familiesIn(text).filter((family) => !there.includes(family));
+  if (missing.length || !there.length) throw new Error(`the page has no fonts ${missing}, which reports take from it`);
+  return fontsIn(text).reduce((rest, rule) => rest.replace(rule, ''), text);
+}
 
 // The file system of the module: what its file offer gives (tools/serve/below.hpp), the names of netlists in the order of the gallery, and the
 // template of reports, the units, and the JSON Schema.

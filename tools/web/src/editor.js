@@ -7,6 +7,7 @@ import { EditorState } from '@codemirror/state';
 import { drawSelection, EditorView, highlightActiveLine, highlightActiveLineGutter, keymap, lineNumbers } from '@codemirror/view';
 import { tags } from '@lezer/highlight';
 import { t } from './messages.js';
+import { placeIn } from './netlist-text.js';
 
 const colours = HighlightStyle.define([
   { tag: tags.comment, color: 'var(--code-comment)', fontStyle: 'italic' },
@@ -106,9 +107,7 @@ export class Editor {
     const { doc } = this.view.state;
     if (!line || line > doc.lines) return doc.length;
     const at = doc.line(line);
-    let offset = 0;
-    for (const character of [...at.text].slice(0, Math.max(0, column - 1))) offset += character.length;
-    return at.from + Math.min(offset, at.length);
+    return at.from + placeIn(at.text, column);
   }
 
   mark(mistakes) {

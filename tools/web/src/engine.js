@@ -134,7 +134,9 @@ export const save = async () => {
 
 // A report with the fonts of this page: the module's template has none.
 function withFonts(report) {
-  const rules = [...document.styleSheets].flatMap(({ cssRules }) => [...cssRules]).filter((rule) => rule instanceof CSSFontFaceRule);
+  // Those of another origin, as of an extension of the browser, may not be read.
+  const own = [...document.styleSheets].filter(({ href }) => !href || new URL(href).origin === location.origin);
+  const rules = own.flatMap(({ cssRules }) => [...cssRules]).filter((rule) => rule instanceof CSSFontFaceRule);
   return report.replace('</head>', () => `<style>${rules.map(({ cssText }) => cssText).join('')}</style></head>`);
 }
 

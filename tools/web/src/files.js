@@ -21,7 +21,10 @@ export class Files {
     this.gallery = new Gallery({ onopen: (file, isLesson) => this.openFile(file, true, isLesson), onnew: () => this.desk.beginAnew() });
     this.saving = new SaveDialog();
     this.writing = new LessonDialog({ ondone: (text) => this.preview(text) });
-    addEventListener('popstate', (event) => this.openAddress(event.state));
+    addEventListener('popstate', (event) => {
+      this.writing.close();
+      this.openAddress(event.state);
+    });
     addEventListener('beforeunload', () => this.keep());
   }
 
@@ -108,11 +111,12 @@ export class Files {
   async editLesson() {
     const { desk } = this;
     const { current } = desk;
-    const { file, version, data, stale } = current;
+    const { file, text, data, stale } = current;
     if (!data.scene || stale) return desk.answer(data.failed?.message ?? t('The netlist has mistakes.'), true);
     try {
       const name = lessonFileOf(file);
       this.edited = current.lesson ?? (this.hasLesson ? await open(name) : { text: '', version: '' });
+      if (desk.current !== current || current.file !== file || current.text !== text) return; // another scene meanwhile
       this.writing.open({ file, text: this.asOpened.text, lesson: this.edited.text, data, first: desk.plots.drawnCurves()[0]?.[0]?.y });
     } catch (error) {
       desk.answer(error.message, true);

@@ -35,8 +35,8 @@ export class LessonDialog {
     this.ondone = ondone;
   }
 
-  // For a netlist and its run, `data`. `lesson`: the text of its lesson, '' for a new one, which predicts the record `first`. What was typed before
-  // is still there. Throws an error if the lesson is no TOML.
+  // For a netlist and its run, `data`. `lesson`: the text of its lesson, '' for a new one, which predicts the record `first`. A form that was closed
+  // is shown again with the texts that were typed. Throws an error if the lesson is no TOML.
   open({ file, text, lesson, data, first = data.records[0]?.path }) {
     const { start, stop, sliders } = data.scene;
     const key = JSON.stringify([file, lesson, data.records.map(({ path }) => path), start, stop, sliders.map(({ name }) => name)]);
@@ -45,6 +45,10 @@ export class LessonDialog {
     if (key !== this.key) this.build(lesson, first);
     this.key = key;
     this.dialog.showModal();
+  }
+
+  close() {
+    this.dialog?.close();
   }
 
   recordOf(path) {
@@ -68,7 +72,7 @@ export class LessonDialog {
     const records = this.data.records.map(({ path, unit }) => [path, unit === '1' ? path : `${path} [${inPrint(unit)}]`]);
     const names = this.data.scene.sliders.filter(({ group }) => group === 'parameters').map(({ name }) => name);
     const { level, minutes, prompt, y, low, high, choices, explain } = source.fields;
-    const close = () => this.dialog.close();
+    const close = () => this.close();
     const isAmong = records.some(([path]) => path === y);
     this.prompt = field(t('Question'), lines(prompt), ['predict', 'prompt'], t('Formulas stand between dollar signs, as in TeX: $F = k x$'));
     this.record = field(t('The students predict'), list(isAmong ? records : [[y, y], ...records], y), ['predict', 'y']);
@@ -143,7 +147,7 @@ export class LessonDialog {
     choice.pen.after(board.host);
   }
 
-  // What is written replaces what was drawn.
+  // Removes the drawn curve, so that a written one can take its place.
   eraseDrawing(choice) {
     choice.board?.remove();
     choice.board = null;
@@ -193,7 +197,7 @@ export class LessonDialog {
         if (message.kind === 'failed') refused.set(null, message.message);
         for (const { line: row, column, message: why, hint } of message.items ?? []) {
           // The innermost of those that hold its place.
-          const at = this.shown.filter(({ path }) => written.holds(path, row, column)).sort((a, b) => b.path.length - a.path.length)[0] ?? null;
+          const at = this.shown.filter(({ path }) => written.contains(path, row, column)).sort((a, b) => b.path.length - a.path.length)[0] ?? null;
           refused.set(at, [refused.get(at), hint ? `${why} – ${hint}` : why].filter(Boolean).join('\n'));
         }
       });

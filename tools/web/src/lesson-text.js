@@ -1,6 +1,6 @@
 // The text of a lesson, read into the fields of its form and written from them. All that has no field stays as it is: presets, [demo],
 // comments, and the texts in other languages.
-import { NetlistText, changed, valueOf } from './netlist-text.js';
+import { NetlistText, changed, placeIn, valueOf } from './netlist-text.js';
 
 // The file of the lesson of a netlist.
 export const lessonFileOf = (file) => `${file.replace(/\.toml$/, '')}.lesson`;
@@ -37,12 +37,12 @@ export class LessonText {
     this.take(changed(this.text, changes));
   }
 
-  // `toml` at a path; '' takes away what is there.
+  // Writes `toml` as the value at a path, or removes the value if `toml` is ''.
   put(path, toml) {
     this.edit(toml ? this.toml.set(path, toml) : this.toml.remove(path));
   }
 
-  // What is `typed` into a field that shows the value at a path; it is `toml` as TOML: a number, a quantity or a formula unless given.
+  // Writes the text `typed` into the field of the value at a path, if it has changed: as `toml`, or else as a number, a quantity or a formula.
   change(path, typed, toml = typed && valueOf(typed)) {
     if (typed !== this.read(path)) this.put(path, toml);
   }
@@ -110,7 +110,7 @@ export class LessonText {
       this.putText([...path, 'text'], choice.text);
       if (choice.drawn) this.put([...path, 'y'], choice.drawn.length ? `[${choice.drawn.map((value) => Number(value.toPrecision(3))).join(', ')}]` : '');
       else this.change([...path, 'y'], choice.y);
-      if (!this.read([...path, 'y']) && !choice.drawn?.length) this.put([...path, 'x'], ''); // a curve has both sides or none
+      if (!this.toml.root.at(...path, 'y')) this.put([...path, 'x'], ''); // a curve has both sides or none
       const right = choice.right ? 'true' : '';
       this.change([...path, 'right'], right, right);
       this.putText([...path, 'reply'], choice.reply);
@@ -119,11 +119,12 @@ export class LessonText {
     return this.text;
   }
 
-  // Whether a place, counted from 1, is within the value at a path.
-  holds(path, line, column) {
+  // Whether the value at a path has the place of a line and a column (both from 1, in characters).
+  contains(path, line, column) {
     const entry = path.length && this.toml.root.at(...path.slice(0, -1))?.entries.get(path.at(-1));
     const nodes = entry ? entry.statements : [this.toml.root.at(...path)?.node].filter(Boolean);
-    const place = this.text.split('\n').slice(0, line - 1).reduce((sum, each) => sum + each.length + 1, column - 1);
+    const rows = this.text.split('\n');
+    const place = rows.slice(0, line - 1).reduce((sum, row) => sum + row.length + 1, placeIn(rows[line - 1] ?? '', column));
     return nodes.some(({ range: [from, to] }) => from <= place && place <= to);
   }
 }

@@ -8,6 +8,9 @@ export const keyOf = (name) => (isBare(name) ? name : JSON.stringify(name));
 // A value as TOML: a number unquoted, any other text in quotes.
 export const valueOf = (text) => (/^[+-]?(\d+\.?\d*|\d*\.\d+)(e[+-]?\d+)?$/i.test(text) && !/^[+-]?(0\d|\.|\d+\.(e|$))/i.test(text) ? text : JSON.stringify(text));
 
+// The place in a line of a column, counted from 1 in characters, as the server counts them.
+export const placeIn = (line, column) => [...line].slice(0, Math.max(0, column - 1)).join('').length;
+
 // A table, an array or a single value.
 class Value {
   constructor(kind, node = null) {
