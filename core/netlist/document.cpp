@@ -202,6 +202,11 @@ TomlEntry* TomlValue::find(std::string_view key) {
   return const_cast<TomlEntry*>(static_cast<const TomlValue*>(this)->find(key));
 }
 
+TomlValue& Document::own() {
+  if (!changed_) changed_ = std::make_unique<TomlValue>(*parsed_);
+  return *changed_;
+}
+
 std::string describe(const TomlValue& value) {
   switch (value.kind) {
     case TomlValue::Kind::string:

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/netlist/diagnostic.hpp"
@@ -36,6 +38,21 @@ struct TomlEntry {
   std::string key;
   Spot spot;  ///< of the key
   TomlValue value;
+};
+
+/// A parsed file. Readings share it until one of them changes it.
+class Document {
+ public:
+  Document() = default;
+  explicit Document(std::shared_ptr<const TomlValue> parsed) : parsed_(std::move(parsed)) {}
+
+  const TomlValue& value() const { return changed_ ? *changed_ : *parsed_; }
+  /// A copy that may be changed, and is the value from now on. References to the former value stay valid.
+  TomlValue& own();
+
+ private:
+  std::shared_ptr<const TomlValue> parsed_;
+  std::unique_ptr<TomlValue> changed_;
 };
 
 /// The kind of a value, for messages: "a string", "the number 3", ...

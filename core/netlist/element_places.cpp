@@ -20,13 +20,15 @@ void TemplateReader::read_place(ElementTemplate& plan, Scope* scope, std::size_t
                        "its place in the group says between which nodes it is");
     return;
   }
-  const std::string two = ports == 2 ? "two nodes" : std::to_string(ports) + " nodes";
-  const std::vector<std::string>& three = context_.declarations[static_cast<std::size_t>(plan.declaration)]->three;
-  const std::string between_hint = plan.model && ports != 2 ? "one for each port of the model"
-                                   : ports == 3             ? "between = [\"" + three[0] + "\", \"" + three[1] + "\", \"" + three[2] + "\"]"
-                                                            : "between = [\"a\", \"ground\"]";
+  const auto nodes = [&] { return ports == 2 ? "two nodes" : std::to_string(ports) + " nodes"; };
+  const auto between_hint = [&]() -> std::string {
+    if (plan.model && ports != 2) return "one for each port of the model";
+    if (ports != 3) return "between = [\"a\", \"ground\"]";
+    const std::vector<std::string>& three = context_.declarations[static_cast<std::size_t>(plan.declaration)]->three;
+    return "between = [\"" + three[0] + "\", \"" + three[1] + "\", \"" + three[2] + "\"]";
+  };
   if (at && !may_be_at) {
-    diagnostics.error(at->spot, "`" + plan.name + "` is between " + two + ", not `at` one", between_hint);
+    diagnostics.error(at->spot, "`" + plan.name + "` is between " + nodes() + ", not `at` one", between_hint());
     return;
   }
   if (between && !may_be_between) {
@@ -43,7 +45,7 @@ void TemplateReader::read_place(ElementTemplate& plan, Scope* scope, std::size_t
                        list_names(may_be_at && may_be_between ? std::vector<std::string>{"at", "between"}
                                   : may_be_at                 ? std::vector<std::string>{"at"}
                                                               : std::vector<std::string>{"between"}),
-                   may_be_between ? between_hint : "at = \"a\"");
+                   may_be_between ? between_hint() : "at = \"a\"");
     return;
   }
   const auto take = [&](const TomlValue& value) {
@@ -56,11 +58,11 @@ void TemplateReader::read_place(ElementTemplate& plan, Scope* scope, std::size_t
     take(at->value);
     return;
   }
-  if (!expect_array(between->value, "`between`", diagnostics, between_hint)) return;
+  if (!expect_array(between->value, "`between`", diagnostics, between_hint())) return;
   const auto& items = between->value.items;
   if (items.size() != ports && ports > 0) {
-    diagnostics.error(between->value.spot, "`between` must name " + two + ", but names " + std::to_string(items.size()),
-                   between_hint);
+    diagnostics.error(between->value.spot, "`between` must name " + nodes() + ", but names " + std::to_string(items.size()),
+                   between_hint());
     return;
   }
   for (const TomlValue& item : items) take(item);

@@ -86,7 +86,8 @@ bool refuse_other_names(const Parameter& parameter, const std::string& name, boo
                         DiagnosticList& diagnostics) {
   const bool rotation = domain == Domain::rotation;
   bool misnamed = false;
-  for (const std::string& other : {parameter.name, parameter.rotational_name}) {
+  for (const std::string* const of_domain : {&parameter.name, &parameter.rotational_name}) {
+    const std::string& other = *of_domain;
     const TomlEntry* entry = other.empty() || other == name ? nullptr : reader.find_quietly(other);
     if (!entry) continue;
     // In a model for translation, an override replaces the value that the model gives.
@@ -158,7 +159,6 @@ void TemplateReader::read_value(ElementTemplate& plan, std::size_t i, const Toml
 
 void TemplateReader::read_elements(const TomlValue& table, Scope& scope, bool in_model) {
   if (!expect_table(table, "`elements`", context_.diagnostics)) return;
-  scope.entries.reserve(table.entries.size());
   for (const TomlEntry& entry : table.entries) {
     if (!expect_name(entry.key, entry.spot, "an element", context_.diagnostics)) continue;
     if (entry.key == "ground") {
@@ -307,7 +307,7 @@ void TemplateReader::read_element(ElementTemplate& plan, const TomlEntry& type, 
     const bool may_be_absent = parameter.kind == Parameter::Kind::initial || parameter.optional || parameter.fallback ||
                                !parameter.same_as.empty() || among(declaration.one_of, parameter.name) || misnamed;
     const TomlEntry* entry = may_be_absent ? reader.find(name)
-                                           : reader.require(name, plan.spot, wanted(parameter, domain));
+                                           : reader.require(name, plan.spot, [&] { return wanted(parameter, domain); });
     if (!entry) {
       if (parameter.kind == Parameter::Kind::signal && parameter.fallback) plan.default_signals.push_back(i);
       continue;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <deque>
 #include <map>
 #include <memory>
 #include <optional>
@@ -84,7 +85,7 @@ struct Scope {
   static constexpr int ground = -1;  ///< Stands for the ground among indices into `nodes`.
   std::vector<Node> nodes;  ///< A model's ports come first.
   std::unordered_map<std::string, int> node_index;
-  std::vector<ElementTemplate> entries;
+  std::deque<ElementTemplate> entries;
 
   std::unordered_map<std::string, std::size_t> entry_index;
 

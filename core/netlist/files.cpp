@@ -30,6 +30,15 @@ std::optional<std::string> Files::text_of(const fs::path& file, std::string& why
   return cache_ ? cache_->text_of(file, why) : read_text(file, why);
 }
 
+std::optional<Document> Files::document(int file, DiagnosticList& diagnostics) const {
+  std::shared_ptr<const TomlValue> parsed;
+  if (cache_)
+    parsed = cache_->document(file, sources_, diagnostics);
+  else if (auto value = parse_toml(file, sources_, diagnostics))
+    parsed = std::make_shared<const TomlValue>(std::move(*value));
+  return parsed ? std::optional(Document(std::move(parsed))) : std::nullopt;
+}
+
 int Files::add(fs::path shown, std::string text, fs::path folder, Sources::Role role) {
   // Lines and columns do not count a byte order mark.
   drop_byte_order_mark(text);

@@ -46,11 +46,7 @@ class Files {
   std::optional<int> read(const Found& found, Sources::Role role, Spot spot, DiagnosticList& diagnostics);
 
   /// Parses a file of Sources; see parse_toml.
-  std::optional<TomlValue> document(int file, DiagnosticList& diagnostics) const {
-    if (!cache_) return parse_toml(file, sources_, diagnostics);
-    const std::shared_ptr<const TomlValue> shared = cache_->document(file, sources_, diagnostics);
-    return shared ? std::optional(*shared) : std::nullopt;
-  }
+  std::optional<Document> document(int file, DiagnosticList& diagnostics) const;
 
   /// As std::filesystem::canonical.
   std::filesystem::path canonical(const std::filesystem::path& path, std::error_code& failed) const {

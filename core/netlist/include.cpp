@@ -56,9 +56,9 @@ class Includer {
     auto document = context_.files.document(*file, diagnostics);
     if (!document) return;
     open_.push_back({found->canonical, found->shown});
-    read(*document);
+    read(document->value());
     open_.pop_back();
-    refuse_others(*document);
+    refuse_others(document->value());
     files.push_back({*file, std::move(*document)});
   }
 

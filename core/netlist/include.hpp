@@ -10,7 +10,7 @@ namespace rheonet {
 /// A file that was included.
 struct IncludedFile {
   int file = 0;
-  TomlValue document;
+  Document document;
 };
 
 /// Reads the files that the scene names in `include`, and the files that those include, each once; a file comes after all

@@ -86,14 +86,14 @@ class Splitter {
   }
 
   bool read_figure(Parts& parts, const std::string& name) {
-    std::vector<std::string> names;
     for (const auto& [known, figure] : measure_names) {
-      names.emplace_back(known);
       if (name != known) continue;
       parts.figure = figure;
       parts.name = name;
       return true;
     }
+    std::vector<std::string> names;
+    for (const auto& [known, figure] : measure_names) names.emplace_back(known);
     diagnostics_.error(spot(0), "there is no measure `" + printable(name) + "` of a record",
                     did_you_mean(name, names, name == "crossing" ? "did you mean `time of crossing`?"
                                                                  : "there are " + list_names(names, "and")));

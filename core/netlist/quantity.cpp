@@ -186,20 +186,20 @@ std::variant<Number, TextError> evaluate_text(std::string_view text, const Envir
 
 std::variant<double, TextError> as_quantity(const Number& number, Quantity quantity, Domain domain, double flow_index) {
   if (number.plain) return number.value;
-  const std::string unit = unit_of(quantity, domain, flow_index);
-  const std::string expected = quantity == Quantity::number
-                                   ? "a number without a unit"
-                                   : fmt::format("{} ({})", with_article(name_of(quantity, domain)), unit);
+  const auto expected = [&]() -> std::string {
+    if (quantity == Quantity::number) return "a number without a unit";
+    return fmt::format("{} ({})", with_article(name_of(quantity, domain)), unit_of(quantity, domain, flow_index));
+  };
   if (!number.dimension.same(dimension_of(quantity, domain, flow_index)))
-    return TextError{0, fmt::format("expected {}, found {}", expected, describe(number)),
+    return TextError{0, fmt::format("expected {}, found {}", expected(), describe(number)),
                      hint_for(number, quantity, domain, flow_index)};
-  if (quantity == Quantity::frequency) return as_frequency(number, expected);
+  if (quantity == Quantity::frequency) return as_frequency(number, expected());
   const bool rotation = domain == Domain::rotation;
   const bool of_angle = quantity == Quantity::angle ||
                         (rotation && (quantity == Quantity::position || quantity == Quantity::velocity));
   if (of_angle || quantity == Quantity::velocity)
     if (const auto wrong = miscounted(number, of_angle))
-      return TextError{0, fmt::format("expected {}, {}", expected, wrong->message), wrong->hint};
+      return TextError{0, fmt::format("expected {}, {}", expected(), wrong->message), wrong->hint};
   return number.value;
 }
 

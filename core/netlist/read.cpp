@@ -85,7 +85,7 @@ class Reader {
 
   void read_document(int file, const fs::path& canonical) {
     override_tables();
-    TableReader reader(document_, "the scene");
+    TableReader reader(document_.value(), "the scene");
     for (const std::string& key : top_level) reader.find(key);
     const Spot begin{file, 1, 1};
     const TomlEntry* elements =
@@ -95,13 +95,13 @@ class Reader {
     reader.finish(diagnostics_);
     read_title_and_domain();
 
-    const Environment& environment = parameters_of(document_);
-    if (const TomlEntry* checks = document_.find("check")) evaluate_checks(checks->value, environment, diagnostics_);
+    const Environment& environment = parameters_of(document_.value());
+    if (const TomlEntry* checks = document_.value().find("check")) evaluate_checks(checks->value, environment, diagnostics_);
     std::set<std::string> doubtful = read_network(elements, environment, canonical);
     read_start_and_effects(environment, doubtful);
     read_questions(simulate, environment, doubtful);
     if (diagnostics_.errors() > 0) return;
-    warn_of_unused_parameters(document_, identifiers_on_command_line(), diagnostics_);
+    warn_of_unused_parameters(document_.value(), [&] { return identifiers_on_command_line(); }, diagnostics_);
   }
 
   std::set<std::string> identifiers_on_command_line() const {
@@ -122,7 +122,7 @@ class Reader {
     TemplateReader planner(context_, models);
     Scope scope;
     if (elements) planner.read_elements(elements->value, scope);
-    stop_condition_.read(document_, environment, scope, context_);
+    stop_condition_.read(document_.value(), environment, scope, context_);
     if (elements && elements->value.is_table() && elements->value.entries.empty())
       diagnostics_.error(elements->spot, "the scene has no elements");
     const ActiveOverrides overrides = element_overrides(scope);
@@ -178,20 +178,23 @@ class Reader {
   /// Reads the models of the scene and of the files that it includes.
   void read_models(const Environment& environment, const fs::path& canonical, Models& models) {
     const std::size_t before = diagnostics_.errors();
-    included_ = read_includes(document_, canonical, context_);
+    included_ = read_includes(document_.value(), canonical, context_);
     override_models(included_);
-    laws_to_models(document_, diagnostics_);
-    for (IncludedFile& other : included_) laws_to_models(other.document, diagnostics_);
+    const auto make_models = [&](Document& document) {
+      if (document.value().find("laws")) laws_to_models(document.own(), diagnostics_);
+    };
+    make_models(document_);
+    for (IncludedFile& other : included_) make_models(other.document);
     context_.models_missing = diagnostics_.errors() > before;
     for (const IncludedFile& other : included_) {
-      const TomlEntry* table = other.document.find("models");
+      const TomlEntry* table = other.document.value().find("models");
       context_.several_domains = context_.several_domains || (table && names_other_domain(table->value, context_));
     }
-    if (const TomlEntry* table = document_.find("models")) {
+    if (const TomlEntry* table = document_.value().find("models")) {
       context_.several_domains = context_.several_domains || names_other_domain(table->value, context_);
     }
-    for (IncludedFile& other : included_) declare(other.document, parameters_of(other.document), models);
-    declare(document_, environment, models);
+    for (IncludedFile& other : included_) declare(other.document.value(), parameters_of(other.document.value()), models);
+    declare(document_.value(), environment, models);
     plan_models(context_, models);
   }
 
@@ -201,10 +204,10 @@ class Reader {
   }
 
   void read_start_and_effects(const Environment& environment, const std::set<std::string>& doubtful) {
-    if (const TomlEntry* nodes = document_.find("nodes"))
+    if (const TomlEntry* nodes = document_.value().find("nodes"))
       read_initial_values(nodes->value, environment, doubtful, context_, scene_);
     scene_.keep = options_.keep;
-    read_effects(document_.find("effects"), options_.without, options_.only, context_, result_.sources, scene_);
+    read_effects(document_.value().find("effects"), options_.without, options_.only, context_, result_.sources, scene_);
   }
 
   /// Reads the settings of the run, the records, the claims and the presentation.
@@ -215,23 +218,23 @@ class Reader {
     // Do not make a million default records for a scene that is refused.
     if (record || diagnostics_.errors() == 0) resolve_records(record, environment, doubtful, context_, scene_);
     add_records(options_.records, doubtful, context_, result_.sources, scene_);
-    if (const TomlEntry* expect = document_.find("expect"); expect && options_.claims)
+    if (const TomlEntry* expect = document_.value().find("expect"); expect && options_.claims)
       read_claims(expect->value, environment, doubtful, context_, scene_);
     read_measures(options_.measures, environment, doubtful, context_, result_.sources, scene_);
-    if (const TomlEntry* exact = document_.find("exact"))
+    if (const TomlEntry* exact = document_.value().find("exact"))
       read_analytic_solutions(exact->value, environment, doubtful, context_, scene_);
-    if (const TomlEntry* plot = document_.find("plot")) {
+    if (const TomlEntry* plot = document_.value().find("plot")) {
       presentation_.plot = read_plot_table(plot->value, doubtful, context_, scene_);
       if (options_.plotted) add_records(presentation_.plot.records(), doubtful, context_, result_.sources, scene_);
     }
-    if (const TomlEntry* demo = document_.find("demo"))
+    if (const TomlEntry* demo = document_.value().find("demo"))
       presentation_.demo = read_demo(demo->value, environment, context_);
   }
 
   void read_title_and_domain() {
-    if (const TomlEntry* title = document_.find("title"); title && expect_string(title->value, "`title`", diagnostics_))
+    if (const TomlEntry* title = document_.value().find("title"); title && expect_string(title->value, "`title`", diagnostics_))
       scene_.title = title->value.text;
-    const TomlEntry* domain = document_.find("domain");
+    const TomlEntry* domain = document_.value().find("domain");
     if (!domain || !expect_string(domain->value, "`domain`", diagnostics_)) return;
     const std::string& text = domain->value.text;
     if (text == "rotation")
@@ -256,7 +259,7 @@ class Reader {
       if (!is_top_level(table) || table == "elements" || table == "models" || table == "laws") continue;
       if (table == "nodes") join_node_path(override);
       const bool is_new_parameter = table == "parameters" && !has_parameter(override);
-      apply({&override, 0}, document_, diagnostics_);
+      apply({&override, 0}, document_.own(), diagnostics_);
       if (is_new_parameter) refuse_unless_used(override);
     }
   }
@@ -271,16 +274,16 @@ class Reader {
   }
 
   bool has_parameter(const Override& override) const {
-    const TomlEntry* parameters = document_.find("parameters");
+    const TomlEntry* parameters = document_.value().find("parameters");
     return override.path.size() < 2 || (parameters && parameters->value.find(override.path[1].name));
   }
 
   /// An override may add a parameter that the file uses but does not define; any other new name is mistyped.
   void refuse_unless_used(const Override& override) {
     const Override::Part& part = override.path[1];
-    if (identifiers_below(document_).contains(part.name)) return;
+    if (identifiers_below(document_.value()).contains(part.name)) return;
     std::vector<std::string> names;
-    for (const TomlEntry& entry : document_.find("parameters")->value.entries)
+    for (const TomlEntry& entry : document_.value().find("parameters")->value.entries)
       if (entry.key != part.name) names.push_back(entry.key);
     diagnostics_.error(part.spot, "there is no parameter `" + part.name + "`, and nothing uses one",
                     did_you_mean(part.name, names));
@@ -290,17 +293,17 @@ class Reader {
     for (const Override& override : overrides_) {
       const std::string table = override.path.front().name;
       if (table != "models" && table != "laws") continue;
-      std::vector<TomlValue*> documents{&document_};
+      std::vector<Document*> documents{&document_};
       for (IncludedFile& other : included) documents.push_back(&other.document);
       std::vector<std::string> names;
       bool found = false;
-      for (TomlValue* document : documents) {
-        TomlEntry* models = document->find(table);
+      for (Document* document : documents) {
+        const TomlEntry* models = document->value().find(table);
         if (!models || !models->value.is_table()) continue;
         for (const TomlEntry& model : models->value.entries) names.push_back(model.key);
         if (found || override.path.size() < 2 || !models->value.find(override.path[1].name)) continue;
         found = true;
-        apply({&override, 1}, models->value, diagnostics_);
+        apply({&override, 1}, document->own().find(table)->value, diagnostics_);
       }
       if (!found) {
         const Override::Part& part = override.path[override.path.size() < 2 ? 0 : 1];
@@ -339,7 +342,7 @@ class Reader {
   Context context_;
   Scene scene_;
   Presentation presentation_;
-  TomlValue document_;
+  Document document_;
   std::deque<Override> overrides_;
   std::deque<IncludedFile> included_;
   StopCondition stop_condition_;

@@ -14,14 +14,15 @@ namespace rheonet {
 namespace {
 
 bool is_printable_text(std::string_view text) {
+  if (std::all_of(text.begin(), text.end(), [](char c) { return ' ' <= c && c <= '~'; })) return true;
   const std::u32string characters = decode(text);
   return std::all_of(characters.begin(), characters.end(), is_printable);
 }
 
-bool expect_kind(const TomlValue& value, TomlValue::Kind kind, const char* kind_name, const std::string& what,
-                 DiagnosticList& diagnostics, std::string hint) {
+bool expect_kind(const TomlValue& value, TomlValue::Kind kind, const char* kind_name, std::string_view what,
+                 DiagnosticList& diagnostics, std::string_view hint) {
   if (value.kind == kind) return true;
-  diagnostics.error(value.spot, what + " must be " + kind_name + ", but is " + describe(value), std::move(hint));
+  diagnostics.error(value.spot, fmt::format("{} must be {}, but is {}", what, kind_name, describe(value)), std::string(hint));
   return false;
 }
 
@@ -46,27 +47,29 @@ std::string remedy_for(const TomlEntry& entry, const std::vector<std::string>& k
 
 }  // namespace
 
-const TomlEntry* TableReader::require(const std::string& key, Spot where, std::string hint) {
+const TomlEntry* TableReader::require(std::string_view key, Spot where, std::string hint) {
   const TomlEntry* entry = find(key);
   if (!entry) missing_.push_back({key, where, std::move(hint)});
   return entry;
 }
 
 void TableReader::finish(DiagnosticList& diagnostics) const {
-  const auto among = [](const std::vector<std::string>& names, const std::string& name) {
-    return std::find(names.begin(), names.end(), name) != names.end();
+  const auto asked_for = [&](const TomlEntry& entry) {
+    return std::find(known_.begin(), known_.end(), entry.key) != known_.end() || std::find(silent_.begin(), silent_.end(), entry.key) != silent_.end();
   };
+  if (missing_.empty() && std::all_of(table_.entries.begin(), table_.entries.end(), asked_for)) return;
   std::vector<std::string> mistyped;
+  const std::vector<std::string> known(known_.begin(), known_.end());
   for (const TomlEntry& entry : table_.entries) {
-    if (among(known_, entry.key) || among(silent_, entry.key)) continue;
-    mistyped.push_back(nearest(entry.key, known_));
-    const std::string remedy = remedy_for(entry, known_);
+    if (asked_for(entry)) continue;
+    mistyped.push_back(nearest(entry.key, known));
+    const std::string remedy = remedy_for(entry, known);
     diagnostics.error(entry.spot, "unknown key `" + entry.key + "` of " + what_,
-                   remedy.empty() ? did_you_mean(entry.key, known_, "its keys are " + list_names(known_, "and")) : remedy);
+                   remedy.empty() ? did_you_mean(entry.key, known, "its keys are " + list_names(known, "and")) : remedy);
   }
   for (const Missing& missing : missing_)
-    if (!among(mistyped, missing.key))
-      diagnostics.error(missing.where, what_ + " needs `" + missing.key + "`", missing.hint);
+    if (std::find(mistyped.begin(), mistyped.end(), missing.key) == mistyped.end())
+      diagnostics.error(missing.where, fmt::format("{} needs `{}`", what_, missing.key), missing.hint);
 }
 
 void refuse_both(const TomlEntry& a, const TomlEntry& b, const std::string& what, DiagnosticList& diagnostics,
@@ -76,46 +79,46 @@ void refuse_both(const TomlEntry& a, const TomlEntry& b, const std::string& what
   diagnostics.error(later.spot, what + " has both `" + first.key + "` and `" + later.key + "`", std::move(hint));
 }
 
-bool expect_boolean(const TomlValue& value, const std::string& what, DiagnosticList& diagnostics, std::string hint) {
-  return expect_kind(value, TomlValue::Kind::boolean, "true or false", what, diagnostics, std::move(hint));
+bool expect_boolean(const TomlValue& value, std::string_view what, DiagnosticList& diagnostics, std::string_view hint) {
+  return expect_kind(value, TomlValue::Kind::boolean, "true or false", what, diagnostics, hint);
 }
 
-bool expect_table(const TomlValue& value, const std::string& what, DiagnosticList& diagnostics, std::string hint) {
+bool expect_table(const TomlValue& value, std::string_view what, DiagnosticList& diagnostics, std::string_view hint) {
   const bool of_tables = value.kind == TomlValue::Kind::array && !value.items.empty() && value.items.front().is_table();
   if (hint.empty() && of_tables) hint = "the header of a table has single brackets, as [elements]";
-  return expect_kind(value, TomlValue::Kind::table, "a table", what, diagnostics, std::move(hint));
+  return expect_kind(value, TomlValue::Kind::table, "a table", what, diagnostics, hint);
 }
 
-bool expect_string(const TomlValue& value, const std::string& what, DiagnosticList& diagnostics, std::string hint) {
-  return expect_kind(value, TomlValue::Kind::string, "a string", what, diagnostics, std::move(hint));
+bool expect_string(const TomlValue& value, std::string_view what, DiagnosticList& diagnostics, std::string_view hint) {
+  return expect_kind(value, TomlValue::Kind::string, "a string", what, diagnostics, hint);
 }
 
-bool expect_array(const TomlValue& value, const std::string& what, DiagnosticList& diagnostics, std::string hint) {
-  return expect_kind(value, TomlValue::Kind::array, "an array", what, diagnostics, std::move(hint));
+bool expect_array(const TomlValue& value, std::string_view what, DiagnosticList& diagnostics, std::string_view hint) {
+  return expect_kind(value, TomlValue::Kind::array, "an array", what, diagnostics, hint);
 }
 
-bool expect_name(std::string_view name, Spot spot, const std::string& what, DiagnosticList& diagnostics) {
-  const bool good = !name.empty() && is_printable_text(name) && std::all_of(name.begin(), name.end(), [](char c) {
+bool expect_name(std::string_view name, Spot spot, std::string_view what, DiagnosticList& diagnostics) {
+  const bool good = !name.empty() && std::all_of(name.begin(), name.end(), [](char c) {
     return is_letter(c) || is_digit(c) || c == '_' || c == '-';
-  });
+  }) && is_printable_text(name);
   if (!good)
-    diagnostics.error(spot, "`" + std::string(name) + "` is no name for " + what,
+    diagnostics.error(spot, "`" + std::string(name) + "` is no name for " + std::string(what),
                    "names are made of letters, digits, `_` and `-`");
   return good;
 }
 
-bool expect_identifier(std::string_view name, Spot spot, const std::string& what, DiagnosticList& diagnostics) {
+bool expect_identifier(std::string_view name, Spot spot, std::string_view what, DiagnosticList& diagnostics) {
   constexpr std::array<std::string_view, 3> reserved{"pi", "inf", "nan"};
   const bool good =
       !name.empty() && !is_digit(name.front()) && is_printable_text(name) &&
       std::all_of(name.begin(), name.end(), [](char c) { return is_letter(c) || is_digit(c) || c == '_'; });
   if (!good) {
-    diagnostics.error(spot, "`" + std::string(name) + "` is no name for " + what,
+    diagnostics.error(spot, "`" + std::string(name) + "` is no name for " + std::string(what),
                    "names that expressions use are made of letters, digits and `_`, and begin with no digit");
     return false;
   }
   if (std::find(reserved.begin(), reserved.end(), name) != reserved.end()) {
-    diagnostics.error(spot, "`" + std::string(name) + "` cannot name " + what + ": it is a number already",
+    diagnostics.error(spot, "`" + std::string(name) + "` cannot name " + std::string(what) + ": it is a number already",
                    "choose another name");
     return false;
   }

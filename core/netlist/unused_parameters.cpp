@@ -62,8 +62,9 @@ std::set<std::string> identifiers_below(const TomlValue& table) {
   return names;
 }
 
-void warn_of_unused_parameters(const TomlValue& document, std::set<std::string> used, DiagnosticList& diagnostics) {
+void warn_of_unused_parameters(const TomlValue& document, const std::function<std::set<std::string>()>& others, DiagnosticList& diagnostics) {
   if (const TomlEntry* parameters = document.find("parameters")) {
+    std::set<std::string> used = others();
     used.merge(identifiers_below(document));
     warn_of_unused(parameters->value, used, "", diagnostics);
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <set>
 #include <string>
 
@@ -11,9 +12,9 @@ namespace rheonet {
 /// expressions.
 std::set<std::string> identifiers_below(const TomlValue& table);
 
-/// Warns of each parameter of a file, and of its models, that no expression uses. `used` are identifiers of expressions
+/// Warns of each parameter of a file, and of its models, that no expression uses. `others` gives the identifiers of expressions
 /// outside the file, on the command line. (Models of a library may share a list of parameters, so that one can replace
 /// another.)
-void warn_of_unused_parameters(const TomlValue& document, std::set<std::string> used, DiagnosticList& diagnostics);
+void warn_of_unused_parameters(const TomlValue& document, const std::function<std::set<std::string>()>& others, DiagnosticList& diagnostics);
 
 }  // namespace rheonet
