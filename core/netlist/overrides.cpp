@@ -5,6 +5,7 @@
 #include "core/netlist/characters.hpp"
 #include "core/netlist/expression.hpp"
 #include "core/netlist/signals.hpp"
+#include "core/netlist/unused_parameters.hpp"
 
 namespace rheonet {
 
@@ -58,7 +59,7 @@ void multiply(TomlValue& value, const ActiveOverride& active, DiagnosticList& di
   const double factor = active.override->value.number;
   if (value.kind == TomlValue::Kind::number) {
     value.number *= factor;
-  } else if (value.is_string()) {
+  } else if (const std::string& key = active.override->path.back().name; value.is_string() && key != "at" && !holds_no_expression(key)) {
     value.text = multiplied(value.text, factor);
   } else {
     diagnostics.error(active.override->path.back().spot, "`" + path_to(active) + "` is " + describe(value) + ", which cannot be multiplied",

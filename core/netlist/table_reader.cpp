@@ -59,7 +59,9 @@ void TableReader::finish(DiagnosticList& diagnostics) const {
   };
   if (missing_.empty() && std::all_of(table_.entries.begin(), table_.entries.end(), asked_for)) return;
   std::vector<std::string> mistyped;
-  const std::vector<std::string> known(known_.begin(), known_.end());
+  std::vector<std::string> known;
+  for (const std::string_view key : known_)
+    if (std::find(known.begin(), known.end(), key) == known.end()) known.emplace_back(key);
   for (const TomlEntry& entry : table_.entries) {
     if (asked_for(entry)) continue;
     mistyped.push_back(nearest(entry.key, known));

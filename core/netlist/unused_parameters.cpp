@@ -11,15 +11,13 @@ namespace rheonet {
 
 namespace {
 
-// Keys whose strings are texts, or name elements, nodes, records, files or effects.
 constexpr std::string_view keys_without_expressions[] = {"title", "warn", "error", "question", "change",  "see",  "why",    "domain",  "include",
                                                          "type",  "name", "in",    "between",  "record", "plot", "keep",   "without", "only"};
 
 bool holds_expressions(const TomlEntry& entry, bool in_element) {
   if (entry.value.is_table()) return true;                // a node may have the name of such a key
   if (in_element && entry.key == "at") return false;  // in a claim `at` is a time
-  return std::find(std::begin(keys_without_expressions), std::end(keys_without_expressions), entry.key) ==
-         std::end(keys_without_expressions);
+  return !holds_no_expression(entry.key);
 }
 
 void collect(const TomlValue& value, std::set<std::string>& names) {
@@ -55,6 +53,10 @@ void warn_of_unused(const TomlValue& parameters, const std::set<std::string>& us
 }
 
 }  // namespace
+
+bool holds_no_expression(std::string_view key) {
+  return std::find(std::begin(keys_without_expressions), std::end(keys_without_expressions), key) != std::end(keys_without_expressions);
+}
 
 std::set<std::string> identifiers_below(const TomlValue& table) {
   std::set<std::string> names;

@@ -30,6 +30,31 @@ command line: error: `drive.velocity` is a table, which cannot be multiplied
   name one number of it, a quantity or an expression
 )~",
        {R"~(drive.velocity*=3)~"}},
+      {"a text that is multiplied",
+       R"~(
+title = "A spring"
+[elements]
+k1 = { type = "spring", between = ["a", "ground"], stiffness = 1 }
+)~",
+       R"~(
+command line: error: `title` is the string "A spring", which cannot be multiplied
+      | --set title*=3
+      |       ^
+  name one number of it, a quantity or an expression
+)~",
+       {R"~(title*=3)~"}},
+      {"a node that is multiplied",
+       R"~(
+[elements]
+m1 = { type = "mass", at = "a", mass = 1 }
+)~",
+       R"~(
+command line: error: `m1.at` is the string "a", which cannot be multiplied
+      | --set m1.at*=3
+      |          ^
+  name one number of it, a quantity or an expression
+)~",
+       {R"~(m1.at*=3)~"}},
       {"a factor that is no number",
        R"~(
 [elements]

@@ -25,6 +25,10 @@ def test_a_wrong_unit_and_an_unknown_path():
         rheonet.load(OSCILLATOR, {"k2.stiffness": 2})
     with pytest.raises(rheonet.NetlistError, match="cannot be read: No such file"):
         rheonet.load("no.toml")
+    with pytest.raises(ValueError, match="loads\\(\\) reads a netlist from text"):
+        rheonet.load("title = 'A spring'\n[elements]\n")
+    with pytest.raises(ValueError, match="must be Unicode text"):
+        rheonet.loads("title = '\udcff'")
     with pytest.raises(TypeError, match="a netlist holds numbers, text, lists and dictionaries"):
         rheonet.load(OSCILLATOR, {"k1.stiffness": 2j})
 

@@ -183,6 +183,15 @@ def test_accuracy_and_certificate():
     assert scene.run().certificate is None
 
 
+def test_progress_of_independent_parts_is_that_of_all():
+    seen = []
+    parts = {name: {"type": "dashpot", "between": [name, "ground"], "damping": 1} for name in "ab"}
+    parts |= {f"f{name}": {"type": "force", "at": name, "force": {"chirp": 1, "frequency": "0 Hz", "end_frequency": "100 Hz", "duration": 500}} for name in "ab"}
+    scene = rheonet.load({"elements": parts, "simulate": {"stop": 500, "output": {"points": 11}, "record": ["a.position", "b.position"]}})
+    scene.run(progress=seen.append)
+    assert len(seen) > 1 and seen == sorted(seen) and seen[-1] == 1
+
+
 def test_progress_rises_and_may_end_the_run():
     seen = []
 

@@ -69,6 +69,8 @@ def test_scenes_of_three_lengths_are_compared_as_far_as_the_shortest_goes(scene)
     assert found.differences[0]["s1.force"].largest == 0
     assert found.differences[1]["s1.force"].largest == pytest.approx(0.05, rel=1e-9)
     assert found.dissipated[0] == found.dissipated[1] != found.dissipated[2]
+    assert found.furthest == max(d.relative for of_scene in found.differences for d in of_scene.values()) >= 0.5
+    assert f"relative difference up to {found.furthest:.3g}" in repr(found)
 
 
 def test_what_cannot_be_compared_is_said(scene):

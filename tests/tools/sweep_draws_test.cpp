@@ -113,6 +113,8 @@ TEST_CASE("sweep: a wrong distribution or correlation is refused") {
   refused("--random 3 --vary 'parameters.B=normal(3)'", "`normal` takes 2 numbers, not 1\n  normal(mean, deviation)");
   refused("--random 3 --vary 'parameters.B=normal(3 N*s/m, 1 N)'", "mean and deviation have one unit, not `N*s/m` and `N`");
   refused("--random 3 --vary 'parameters.B=normal(3, -1)'", "the deviation must be above 0, but is -1");
+  refused("--random 3 --vary 'parameters.B=normal(0, 5 %)'", "a share of a mean of 0 is no deviation: give the deviation itself");
+  refused("--random 3 --vary 'parameters.B=normal(3 N*s/m, 0.2)'", "the deviation has no unit: 0.2 N*s/m, say");
   refused("--random 3 --vary 'parameters.B=normal(x, 1)'", "`x` is not a number");
   refused("--random 3 --vary 'parameters.B=lognormal(-3, 1)'", "the median must be above 0, but is -3");
   refused("--random 3 --vary 'parameters.B=lognormal(3 N*s/m, 1 N*s/m)'", "the deviation of ln is a number without a unit, not `1 N*s/m`");

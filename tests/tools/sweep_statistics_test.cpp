@@ -136,6 +136,28 @@ TEST_CASE("sweep: statistics are the same after an interrupt, and from shards; r
   CHECK(folder.read("merged.csv") == rows);
 }
 
+TEST_CASE("sweep: statistics with Sobol indices are of all points that have a value, the indices of the points whose runs all have one") {
+  // y = a + b, which has no value where it is below 0; a and b are uniform from -1 to 1.
+  const Folder folder(R"toml([parameters]
+a = 1
+b = 2
+[elements]
+y = { type = "function", out = "sqrt(a + b)^2" }
+[simulate]
+stop = 1
+output = { points = 2 }
+record = ["y.out"]
+)toml");
+  folder.shell("rheonet sweep scene.toml --vary parameters.a=-1:1 parameters.b=-1:1 --random 1000 --sobol-indices --measure 'final(y.out)' -q -o sweep.csv --statistics s.json", 1);
+  const Json measure = statistics(folder)["measures"][0];
+  CAPTURE(measure.dump());
+  CHECK(std::abs(errors_off(measure["mean"], 2.0 / 3)) < 4);
+  CHECK(measure["values"].get<long>() > 900);
+  CHECK(measure["values"].get<long>() < 1100);
+  // The probability that all of a1 + b1, a2 + b2, a2 + b1 and a1 + b2 are above 0 is that of min(a1, a2) + min(b1, b2) > 0: 1/6.
+  CHECK(std::abs(measure["groups"].get<double>() - 1000.0 / 6) < 50);
+}
+
 TEST_CASE("sweep: statistics that cannot be are refused") {
   const Folder folder(dragged_dashpot);
   const auto refused = [&](const std::string& options, const std::string& why) {

@@ -46,6 +46,10 @@ class Watch {
       } else {
         work();
       }
+      if (told_ && !stopped_) {  // A display of the progress ends with all of it.
+        fraction_ = 1;
+        look();
+      }
     }
     if (stopped_) std::rethrow_exception(stopped_);
     end_thread_at_exit();
@@ -56,7 +60,7 @@ class Watch {
     if (stopped_) return;
     last_ = std::chrono::steady_clock::now();
     unlocked_->with_lock([this] {
-      const bool goes_on = PyErr_CheckSignals() == 0 && told();
+      const bool goes_on = PyErr_CheckSignals() == 0 && tell();
       if (goes_on) return;
       stopped_ = std::make_exception_ptr(py::error_already_set());
       interrupt_ = true;
@@ -64,8 +68,9 @@ class Watch {
   }
 
   /// Calls `progress`, with the functions of C as Unlocked::with_lock asks for. False if it raises an exception.
-  bool told() const {
+  bool tell() {
     if (progress_.is_none()) return true;
+    told_ = true;
     PyObject* const returned = PyObject_CallFunction(progress_.ptr(), "d", fraction_.load());
     Py_XDECREF(returned);
     return returned != nullptr;
@@ -77,6 +82,7 @@ class Watch {
   std::atomic<bool> interrupt_ = false;
   std::atomic<double> fraction_ = 0;
   std::exception_ptr stopped_;
+  bool told_ = false;  ///< `progress` has been called.
   Unlocked* unlocked_ = nullptr;
 };
 

@@ -10,6 +10,7 @@
 #include <numeric>
 
 #include "core/netlist/csv_fields.hpp"
+#include "core/result/csv.hpp"
 #include "tools/rheonet/distributions.hpp"
 
 namespace rheonet::tool {
@@ -17,11 +18,16 @@ namespace {
 
 constexpr std::size_t most_blocks = 100;  // Blocks of the jackknife; the error estimate is then accurate to 7 %.
 
+BlockSums sum_of(const std::vector<BlockSums>& blocks) {
+  BlockSums all = blocks.front();
+  for (std::size_t k = 1; k < blocks.size(); ++k) all.add(blocks[k], 1);
+  return all;
+}
+
 /// An estimate from the sums of all blocks, with its standard error from the delete-a-group jackknife, which leaves out one block after
 /// the other.
 Estimate jackknifed(const std::vector<BlockSums>& blocks, const std::function<double(const BlockSums&)>& estimate) {
-  BlockSums all = blocks.front();
-  for (std::size_t k = 1; k < blocks.size(); ++k) all.add(blocks[k], 1);
+  const BlockSums all = sum_of(blocks);
   std::vector<double> without;
   for (const BlockSums& block : blocks) {
     if (block.points == 0) continue;
@@ -76,7 +82,8 @@ std::vector<Quantile> quantiles_of(OrderStatistics& values, const std::vector<do
 
 struct Statistics::Accumulator {
   OrderStatistics values;
-  std::vector<BlockSums> blocks;
+  std::vector<BlockSums> blocks;  ///< Of all values.
+  std::vector<BlockSums> whole;   ///< Of the groups all of whose runs have a value; empty unless the design has groups.
   long missing = 0;
   std::optional<double> origin;  ///< The first value.
 };
@@ -88,7 +95,10 @@ Statistics::Statistics(const Design& design, const SweepTable& table, std::vecto
   const auto ranges = static_cast<std::size_t>(std::max(0L, group_size_ - 2));
   BlockSums none;
   none.product = none.difference = none.square = std::vector<double>(ranges, 0.0);
-  for (Accumulator& accumulator : accumulators_) accumulator.blocks.assign(std::min(most_blocks, groups), none);
+  for (Accumulator& accumulator : accumulators_) {
+    accumulator.blocks.assign(std::min(most_blocks, groups), BlockSums());
+    if (ranges > 0) accumulator.whole.assign(accumulator.blocks.size(), none);
+  }
 }
 
 Statistics::~Statistics() = default;
@@ -103,6 +113,7 @@ void Statistics::take(std::string_view rows) {
 
 void Statistics::take_row(std::string_view row) {
   const std::vector<CsvField> fields = csv_fields(row);
+  if (fields.size() != first_column_ + columns_ + 1) throw WriteError(fmt::format("the row `{}` of the sweep is damaged", row));
   const bool failed = !fields.back().text.empty();
   if (failed) ++failed_;
   std::vector<double>& values = group_.emplace_back();
@@ -120,17 +131,27 @@ void Statistics::take_group() {
   const auto number = static_cast<std::size_t>(taken_++);
   for (std::size_t k = 0; k < columns_; ++k) {
     Accumulator& a = accumulators_[k];
-    if (std::any_of(group_.begin(), group_.end(), [k](const std::vector<double>& run) { return std::isnan(run[k]); })) continue;
-    if (!a.origin) a.origin = group_[0][k];
-    BlockSums& sums = a.blocks[number * a.blocks.size() / static_cast<std::size_t>(runs_ / group_size_)];
+    const auto has_value = [k](const std::vector<double>& run) { return !std::isnan(run[k]); };
+    const auto first = std::find_if(group_.begin(), group_.begin() + static_cast<std::ptrdiff_t>(independent), has_value);
+    if (first == group_.begin() + static_cast<std::ptrdiff_t>(independent)) continue;
+    if (!a.origin) a.origin = (*first)[k];
+    const std::size_t block = number * a.blocks.size() / static_cast<std::size_t>(runs_ / group_size_);
     const auto relative = [&](std::size_t run) { return group_[run][k] - *a.origin; };
-    sums.points += 1;
-    for (std::size_t run = 0; run < independent; ++run) {
-      a.values.add(group_[run][k]);
-      sums.values += 1;
-      sums.of_values += relative(run);
-      sums.of_squares += relative(run) * relative(run);
-    }
+    const auto add_values = [&](BlockSums& sums) {
+      sums.points += 1;
+      for (std::size_t run = 0; run < independent; ++run) {
+        if (!has_value(group_[run])) continue;
+        sums.values += 1;
+        sums.of_values += relative(run);
+        sums.of_squares += relative(run) * relative(run);
+      }
+    };
+    add_values(a.blocks[block]);
+    for (std::size_t run = 0; run < independent; ++run)
+      if (has_value(group_[run])) a.values.add(group_[run][k]);
+    if (a.whole.empty() || !std::all_of(group_.begin(), group_.end(), has_value)) continue;
+    BlockSums& sums = a.whole[block];
+    add_values(sums);
     for (std::size_t range = 0; range < sums.product.size(); ++range) {
       const double changed = relative(range + 2) - relative(0);
       sums.product[range] += relative(1) * changed;
@@ -152,17 +173,18 @@ std::vector<MeasureStatistics> Statistics::results() {
     s.least = ends.front();
     s.largest = ends.back();
     s.quantiles = quantiles_of(a.values, probabilities_);
-    double points = 0;
-    for (const BlockSums& block : a.blocks) points += block.points;
-    if (points < 3) continue;  // The jackknife of the deviation needs three points.
+    constexpr double fewest = 3;  // Points that the jackknife of the deviation needs.
+    const BlockSums all_values = sum_of(a.blocks);
+    if (all_values.points < fewest) continue;
     s.deviation = jackknifed(a.blocks, [](const BlockSums& sums) { return std::sqrt(sums.variance()); });
-    BlockSums total = a.blocks.front();
-    for (std::size_t k = 1; k < a.blocks.size(); ++k) total.add(a.blocks[k], 1);
-    s.mean = Estimate{*a.origin + total.of_values / total.values, s.deviation->value / std::sqrt(total.values)};
-    if (s.deviation->value == 0) continue;  // No range has an influence.
-    for (std::size_t range = 0; range < total.product.size(); ++range) {
-      s.first_order.push_back(jackknifed(a.blocks, [range](const BlockSums& sums) { return sums.first_order(range); }));
-      s.total.push_back(jackknifed(a.blocks, [range](const BlockSums& sums) { return sums.total(range); }));
+    s.mean = Estimate{*a.origin + all_values.of_values / all_values.values, s.deviation->value / std::sqrt(all_values.values)};
+    if (a.whole.empty()) continue;
+    const BlockSums whole = sum_of(a.whole);
+    s.groups = std::lround(whole.points);
+    if (whole.points < fewest || whole.variance() == 0) continue;  // If all values are equal no range has an influence.
+    for (std::size_t range = 0; range < whole.product.size(); ++range) {
+      s.first_order.push_back(jackknifed(a.whole, [range](const BlockSums& sums) { return sums.first_order(range); }));
+      s.total.push_back(jackknifed(a.whole, [range](const BlockSums& sums) { return sums.total(range); }));
     }
   }
   return all;
@@ -176,16 +198,15 @@ nlohmann::ordered_json as_json(nlohmann::ordered_json head, const std::vector<Me
   for (std::size_t k = 0; k < all.size(); ++k) {
     const MeasureStatistics& s = all[k];
     Json one{{"name", table.measure_names()[k]}, {"unit", table.measure_units()[k]}, {"values", s.values}, {"missing", s.missing}};
-    if (s.values > 0) {
-      one["least"] = s.least;
-      one["largest"] = s.largest;
-    }
+    one["least"] = s.values > 0 ? Json(s.least) : Json(nullptr);
+    one["largest"] = s.values > 0 ? Json(s.largest) : Json(nullptr);
     one["mean"] = estimate(s.mean);
     one["standard_deviation"] = estimate(s.deviation);
     one["quantiles"] = Json::array();
     for (const Quantile& q : s.quantiles)
       one["quantiles"].push_back({{"probability", q.probability}, {"value", q.value}, {"from", bound(q.from)}, {"to", bound(q.to)}});
     if (design.group() > 1) {
+      one["groups"] = s.groups;
       one["sobol_indices"] = Json::array();
       for (std::size_t range = 0; range < s.total.size(); ++range)
         one["sobol_indices"].push_back({{"of", design.paths()[range]}, {"first_order", estimate(s.first_order[range])}, {"total", estimate(s.total[range])}});
@@ -210,6 +231,9 @@ std::string in_words(const std::vector<MeasureStatistics>& all, const Design& de
     for (const Quantile& q : s.quantiles)
       if (q.probability == 0.5) text += fmt::format(", median {:.6g}{}", q.value, unit);
     text += '\n';
+    const long groups = design.runs() / design.group();
+    if (design.group() > 1 && s.groups < groups)
+      text += fmt::format("    Sobol indices of {} of {} points: the others have a run without a value, so that the indices are of a part of the ranges\n", s.groups, groups);
     for (std::size_t range = 0; range < s.total.size(); ++range)
       text += fmt::format("    Sobol index of {}: first order {:.3f} +- {:.3f}, total {:.3f} +- {:.3f}\n", design.paths()[range], s.first_order[range].value,
                           s.first_order[range].error, s.total[range].value, s.total[range].error);

@@ -27,13 +27,14 @@ struct Quantile {
 
 /// Statistics of one measure over the runs of a sweep that have a value.
 struct MeasureStatistics {
-  long values = 0;   ///< Number of independent runs with a value; a group counts only if all of its runs have one.
+  long values = 0;   ///< Number of independent runs with a value: in groups those of the points A and B.
   long missing = 0;  ///< Number of finished runs without a value.
   double least = 0, largest = 0;
   std::optional<Estimate> mean, deviation;  ///< Absent if there are fewer than 3 values.
   std::vector<Quantile> quantiles;
-  /// For each range that is drawn from; empty unless the design has groups.
+  /// For each range that is drawn from; empty unless the design has groups. From the groups all of whose runs have a value.
   std::vector<Estimate> first_order, total;
+  long groups = 0;  ///< Number of these groups.
 };
 
 /// Sums over a block of points. Values are relative to the very first value, so that a large mean causes no cancellation.

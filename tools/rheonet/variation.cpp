@@ -184,9 +184,11 @@ std::variant<Distribution, NoVariation> read_call(const Parts& parts, const Call
   const bool relative = deviation->unit == "%";
   if (relative) result.second /= 100;
   if (form->kind == Kind::normal) {
+    if (relative && centre->value == 0) return wrong("a share of a mean of 0 is no deviation: give the deviation itself");
     if (relative) result.second *= std::abs(centre->value);
     if (!relative && !centre->unit.empty() && centre->unit != deviation->unit)
-      return wrong(fmt::format("mean and deviation have one unit, not `{}` and `{}`", centre->unit, deviation->unit));
+      return wrong(deviation->unit.empty() ? fmt::format("the deviation has no unit: {} {}, say", deviation->value, centre->unit)
+                                           : fmt::format("mean and deviation have one unit, not `{}` and `{}`", centre->unit, deviation->unit));
     if (!relative) result.unit = deviation->unit;
   } else {
     if (!relative && !deviation->unit.empty()) return wrong(fmt::format("the deviation of ln is a number without a unit, not `{}`", call.arguments[1]));

@@ -39,6 +39,8 @@ def load(source, changes={}):
 
     Raises NetlistError if the netlist has a mistake, TypeError for a value that a netlist cannot hold.
     """
+    if isinstance(source, str) and "\n" in source:
+        raise ValueError("load() takes the path of a file, or a dictionary: loads() reads a netlist from text")
     if isinstance(source, Mapping):
         return _scene(_rheonet.Source("<dictionary>", toml_of(source), "."), changes)
     return _scene(_rheonet.Source(_arguments.file("source", source), None, ""), changes)
@@ -101,8 +103,8 @@ class Scene:
         accuracy: allowed error of each record, relative to its largest magnitude in the run, from 1e-12 to 0.1; None: the netlist's.
         certify: estimates the error, and tightens until the accuracy is met: see Result.certificate. Costs at least two runs.
         threads: largest number of threads for independent parts of the scene.
-        progress: called at intervals with the fraction of the run that is completed, from 0 to 1. An exception that it raises
-            ends the run.
+        progress: called with the fraction of the run that is completed, at intervals of 20 ms and, if it was called at all, at the end
+            with 1. An exception that it raises ends the run.
 
         Returns a Result. Raises SimulationError, or KeyboardInterrupt on Ctrl-C. The interpreter lock is released: runs in
         several Python threads use several processors.
@@ -217,7 +219,7 @@ class Scene:
 
         values: the path of a value, or a list of them: "k1.stiffness", "parameters.mu".
         accuracy: as for run(); runs are more accurate where the derivatives need it.
-        progress: as for run(), called with the share of the values that are done.
+        progress: as for run(), called with the share of the runs that are done.
 
         Returns Sensitivities. Raises NetlistError for a path without a value that can be multiplied, SimulationError, also where a derivative
         does not exist because any change of the value leads to other events.
@@ -251,7 +253,7 @@ class Scene:
         accuracy: as for run().
         certify: also how accurate the result is.
         precision: also what accuracy costs.
-        progress: as for run(), called after each scene.
+        progress: as for run(), called with the share of the scenes that are done; the simulations of one scene are not divided.
 
         Returns a Report. Raises RuntimeError if rheonet was built without the web pages, SimulationError if the scene is to be certified and
         cannot be simulated. A run that ends early is shown up to there: see Report.failures.

@@ -20,6 +20,15 @@ def mapping(name, value, example):
 def text(name, value):
     if not isinstance(value, str):
         raise TypeError(f"{name} must be text, not {value!r}")
+    return unicode(name, value)
+
+
+def unicode(name, value):
+    """Text that can be written as UTF-8."""
+    try:
+        value.encode()
+    except UnicodeEncodeError:
+        raise ValueError(f"{name} must be Unicode text, but is {value!r}") from None
     return value
 
 
@@ -85,7 +94,7 @@ def values(path, given):
     """The values of a parameter as a list; text is one value, not a list of characters."""
     if isinstance(given, (str, Mapping)) or np.ndim(np.asarray(given, dtype=object)) == 0:
         raise TypeError(f"the values of {path!r} must be a list, as [{given!r}], not {given!r}")
-    return list(given)
+    return list(np.asarray(given) if hasattr(given, "__array__") else given)  # an array of xarray would give arrays without dimensions
 
 
 def correlations(given):
@@ -102,6 +111,6 @@ def correlations(given):
 def file(name, value):
     """The path of a file as text."""
     try:
-        return os.fsdecode(value)
+        return unicode(name, os.fsdecode(value))
     except TypeError:
         raise TypeError(f"{name} must be the path of a file, but is {value!r}") from None

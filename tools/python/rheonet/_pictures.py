@@ -6,7 +6,7 @@ import os
 import pathlib
 import warnings
 
-from . import _rheonet
+from . import _arguments, _rheonet
 
 
 def image(svg, description):
@@ -94,11 +94,15 @@ def _range(name, value):
 def plot_options(y=(), x="", loop=(), flow=(), phase=(), decay=(), units=(), names=(), title="", x_label="", y_label="", x_range=None,
                  y_range=None, log="", magnitudes=False, marks=False, size=None):  # fmt: skip
     """The keywords of plot() as the options of `rheonet plot`."""
+    for name, text in {"x": x, "log": log, "title": title, "x_label": x_label, "y_label": y_label}.items():
+        _arguments.text(name, text)
+    if size is not None and (isinstance(size, str) or len(size) != 2):
+        raise ValueError(f"size takes a width and a height: size=(640, 400), not {size!r}")
     lists = {"y": y, "loop": loop, "flow": flow, "phase": phase, "decay": decay, "units": units, "names": names}
     return {name: _texts(value) for name, value in lists.items()} | {
         "x": x, "log": log, "title": title, "x_label": x_label, "y_label": y_label, "magnitudes": magnitudes, "marks": marks,
         "x_range": _range("x_range", x_range), "y_range": _range("y_range", y_range),
-        "size": "" if size is None else "x".join(f"{length:g}" for length in size),
+        "size": "" if size is None else "x".join(f"{_arguments.number('a length', length):g}" for length in size),
     }  # fmt: skip
 
 

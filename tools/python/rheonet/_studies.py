@@ -61,7 +61,7 @@ class Comparison(_Study):
     @property
     def furthest(self):
         """The largest relative difference of all records and scenes."""
-        return max(max(of_scene.values(), key=lambda d: d.relative) for of_scene in self.differences).relative
+        return max(difference.relative for of_scene in self.differences for difference in of_scene.values())
 
     @property
     def dissipated(self):
