@@ -185,7 +185,7 @@ def test_accuracy_and_certificate():
 
 def test_progress_of_independent_parts_is_that_of_all():
     seen = []
-    parts = {name: {"type": "dashpot", "between": [name, "ground"], "damping": 1} for name in "ab"}
+    parts = {f"c{name}": {"type": "dashpot", "between": [name, "ground"], "damping": 1} for name in "ab"}
     parts |= {f"f{name}": {"type": "force", "at": name, "force": {"chirp": 1, "frequency": "0 Hz", "end_frequency": "100 Hz", "duration": 500}} for name in "ab"}
     scene = rheonet.load({"elements": parts, "simulate": {"stop": 500, "output": {"points": 11}, "record": ["a.position", "b.position"]}})
     scene.run(progress=seen.append)
