@@ -30,10 +30,7 @@ std::string first_mistake(const ReadResult& read) {
 
 tables::Layout Sweep::layout() const {
   std::vector<bool> is_text;
-  for (std::size_t path = 0; path < design_.paths().size(); ++path) {
-    const std::vector<std::string> values = design_.listed_values(path);
-    is_text.push_back(!std::all_of(values.begin(), values.end(), is_number));
-  }
+  for (std::size_t path = 0; path < design_.paths().size(); ++path) is_text.push_back(!design_.all_of(path, is_number));
   return table_.layout(title_, some_points(), is_text);
 }
 
