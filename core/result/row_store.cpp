@@ -1,18 +1,7 @@
 #include "core/result/row_store.hpp"
 
-#include <fmt/format.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
-#include <cstdlib>
-#include <cstring>
-#include <filesystem>
-#include <string>
-#include <system_error>
 #include <utility>
-
-#include "core/result/csv.hpp"
 
 namespace rheonet {
 namespace {
@@ -20,46 +9,11 @@ namespace {
 constexpr std::size_t memory = 64 << 20;  // bytes for the rows of all runs
 constexpr std::size_t smallest_block = 4 << 10, largest_block = 256 << 10;  // bytes: a write of less costs more than its rows
 
-[[noreturn]] void fail(const char* what) {
-  const int error = errno;
-  std::error_code ignored;
-  throw WriteError(fmt::format("the rows of independent parts cannot be {} a temporary file in `{}`: {}; TMPDIR names another folder", what,
-                               std::filesystem::temp_directory_path(ignored).string(), std::strerror(error)));
-}
-
-/// A file without a name, which the system removes when it is closed.
-int temporary_file() {
-  std::error_code failed;
-  std::string name = (std::filesystem::temp_directory_path(failed) / "rheonet-rows-XXXXXX").string();
-  const int file = ::mkstemp(name.data());
-  if (file < 0) fail("written to");
-  ::unlink(name.c_str());
-  return file;
-}
-
-/// Calls ::pwrite or ::pread until all of a block is done. Returns false after an error.
-template <class Transfer, class Bytes>
-bool transfer_all(Transfer transfer, int file, Bytes* bytes, std::size_t size, std::int64_t offset) {
-  while (size > 0) {
-    const ssize_t done = transfer(file, bytes, size, offset);
-    if (done < 0 && errno == EINTR) continue;
-    if (done <= 0) return false;
-    bytes += done;
-    size -= static_cast<std::size_t>(done);
-    offset += done;
-  }
-  return true;
-}
-
 }  // namespace
 
 RowStore::RowStore(const std::vector<std::size_t>& widths)
     : bytes_(std::clamp(memory / std::max<std::size_t>(widths.size(), 1), smallest_block, largest_block)) {
   for (const std::size_t width : widths) runs_.push_back({.width = width + 1});
-}
-
-RowStore::~RowStore() {
-  if (file_ >= 0) ::close(file_);
 }
 
 std::size_t RowStore::rows_of_block(const Run& run) const { return std::max<std::size_t>(bytes_ / sizeof(double) / run.width, 1); }
@@ -77,10 +31,9 @@ void RowStore::write(Run& run) {
   std::int64_t offset = 0;
   {
     const std::lock_guard lock(mutex_);
-    if (file_ < 0) file_ = temporary_file();
     offset = std::exchange(end_, end_ + static_cast<std::int64_t>(size));
   }
-  if (!transfer_all(::pwrite, file_, reinterpret_cast<const char*>(run.block.data()), size, offset)) fail("written to");
+  file_.write(run.block.data(), size, offset);
   run.blocks.push_back(offset);
   run.block.clear();
 }
@@ -96,7 +49,7 @@ void RowStore::read(Run& run) {
   run.place = 0;
   if (run.begun < run.blocks.size()) {
     run.block.resize(size_of_block(run));
-    if (!transfer_all(::pread, file_, reinterpret_cast<char*>(run.block.data()), run.block.size() * sizeof(double), run.blocks[run.begun])) fail("read from");
+    file_.read(run.block.data(), run.block.size() * sizeof(double), run.blocks[run.begun]);
   } else {
     run.block = std::move(run.last);
   }

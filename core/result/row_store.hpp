@@ -5,6 +5,8 @@
 #include <mutex>
 #include <vector>
 
+#include "core/result/temporary_file.hpp"
+
 namespace rheonet {
 
 /// The rows of several runs side by side, until they are joined. A run's last rows are in memory, those before them in one temporary file, so that
@@ -13,9 +15,6 @@ class RowStore {
  public:
   /// `widths`: the number of values in a row of each run, besides the time.
   explicit RowStore(const std::vector<std::size_t>& widths);
-  ~RowStore();
-  RowStore(const RowStore&) = delete;
-  RowStore& operator=(const RowStore&) = delete;
 
   /// Adds a row. Different runs may be in different threads. Throws WriteError if the temporary file cannot be written.
   void add(std::size_t run, double time, const std::vector<double>& values);
@@ -41,9 +40,9 @@ class RowStore {
 
   std::vector<Run> runs_;
   std::size_t bytes_;  ///< The size of a block is not larger, unless a single row is.
-  std::mutex mutex_;   ///< Guards the file.
-  int file_ = -1;
-  std::int64_t end_ = 0;
+  TemporaryFile file_{"the rows of independent parts"};
+  std::mutex mutex_;  ///< Guards `end_`.
+  std::int64_t end_ = 0;  ///< Size of the file.
 };
 
 }  // namespace rheonet

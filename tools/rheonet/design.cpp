@@ -8,10 +8,8 @@
 #include <set>
 #include <utility>
 
-#include "core/netlist/characters.hpp"
 #include "core/netlist/csv_fields.hpp"
 #include "core/netlist/diagnostic.hpp"
-#include "core/netlist/file_cache.hpp"
 #include "tools/rheonet/words.hpp"
 
 namespace rheonet::tool {
@@ -21,18 +19,16 @@ constexpr long most_runs = 10'000'000;  // 3 CPU hours at 1 ms a run.
 
 using Checked = std::variant<std::monostate, NoVariation>;
 
-/// A cell of the list. A number without a unit gets the unit of the heading.
-std::string with_unit(std::string_view cell, std::string_view unit) {
-  return unit.empty() || !csv_number(cell) ? std::string(cell) : fmt::format("{} {}", cell, unit);
-}
-
 }  // namespace
 
 std::variant<Design, NoVariation> Design::read(const SweepArguments& sweep) {
   Design design;
   if (!sweep.list.empty()) {
-    Checked checked = design.read_list(sweep.list);
-    if (auto* wrong = std::get_if<NoVariation>(&checked)) return std::move(*wrong);
+    auto list = PointList::read(sweep.list);
+    if (auto* wrong = std::get_if<NoVariation>(&list)) return std::move(*wrong);
+    design.list_ = std::get<std::shared_ptr<const PointList>>(std::move(list));
+    design.paths_ = design.list_->paths();
+    design.rows_ = design.list_->rows();
     design.origins_.assign(design.paths_.size(), "--list " + sweep.list + ": ");
   }
   Checked checked = design.read_ranges(sweep);
@@ -44,44 +40,6 @@ std::variant<Design, NoVariation> Design::read(const SweepArguments& sweep) {
   if (design.paths_.empty())
     return NoVariation{"nothing is varied", "--vary k1.stiffness=100:1000:10, or --list FILE.csv"};
   return design;
-}
-
-std::variant<std::monostate, NoVariation> Design::read_list(const std::string& file) {
-  std::string why;
-  auto text = rheonet::read_text(file, why);
-  if (!text) return NoVariation{fmt::format("`--list {}` cannot be read: {}", file, why), ""};
-  drop_byte_order_mark(*text);
-  std::vector<std::string> units;
-  int number = 0;
-  for (const std::string& line : split(*text, '\n')) {
-    ++number;
-    if (is_csv_remark(line)) continue;
-    const std::vector<CsvField> fields = csv_fields(line);
-    if (paths_.empty()) {
-      for (const CsvField& field : fields) {
-        const CsvHeading heading = csv_heading(field.text);
-        paths_.emplace_back(heading.name);
-        units.emplace_back(heading.unit);
-        if (heading.name.empty() || csv_number(field))
-          return NoVariation{fmt::format("{}:{}:{}: expected the path of a value, found `{}`", file, number, field.column,
-                                         field.text),
-                             "the first row names what takes the values below it: k1.stiffness [N/m],c1.damping"};
-      }
-      continue;
-    }
-    if (fields.size() != paths_.size())
-      return NoVariation{fmt::format("{}:{}: {} values, but the first row names {}", file, number, fields.size(), paths_.size()),
-                         ""};
-    std::vector<std::string>& row = list_.emplace_back();
-    for (std::size_t k = 0; k < fields.size(); ++k) {
-      if (fields[k].text.empty())
-        return NoVariation{fmt::format("{}:{}:{}: `{}` has no value", file, number, fields[k].column, paths_[k]), ""};
-      row.push_back(with_unit(csv_text(fields[k]), units[k]));
-    }
-  }
-  if (list_.empty()) return NoVariation{fmt::format("`{}` has no row of values", file), "k1.stiffness [N/m],c1.damping, and below it 100,5"};
-  rows_ = static_cast<long>(list_.size());
-  return {};
 }
 
 std::variant<std::monostate, NoVariation> Design::read_ranges(const SweepArguments& sweep) {
@@ -112,7 +70,7 @@ std::variant<std::monostate, NoVariation> Design::read_ranges(const SweepArgumen
     }
   }
   if (sweep.indices) {
-    if (!list_.empty()) return NoVariation{"`--sobol-indices` and `--list` exclude each other", ""};
+    if (list_) return NoVariation{"`--sobol-indices` and `--list` exclude each other", ""};
     group_ = static_cast<long>(distributions_.size()) + 2;
   }
   if (grid_ > most_runs || drawn_ > most_runs / group_ || rows_ > most_runs / (drawn_ * group_ * grid_))
@@ -174,23 +132,20 @@ double Design::probability(long draw, std::size_t member, std::size_t range) con
   return probability_of_score(score);
 }
 
-std::vector<std::string> Design::listed_values(std::size_t path) const {
-  std::vector<std::string> values;
-  if (const std::size_t listed = list_.empty() ? 0 : list_.front().size(); path < listed) {
-    for (const std::vector<std::string>& row : list_) values.push_back(row[path]);
-    return values;
-  } else {
+bool Design::all_of(std::size_t path, const std::function<bool(const std::string& value)>& holds) const {
+  if (const std::size_t listed = list_ ? list_->paths().size() : 0; path < listed)
+    return list_->all_of([&](const std::vector<std::string>& values) { return holds(values[path]); });
+  else
     path -= listed;
-  }
-  if (path < variations_.size()) return variations_[path].values;
+  if (path < variations_.size()) return std::all_of(variations_[path].values.begin(), variations_[path].values.end(), holds);
   const Distribution& distribution = distributions_[path - variations_.size()];
-  return distribution.values.empty() ? std::vector<std::string>{distribution.quantile(0.5)} : distribution.values;
+  return distribution.values.empty() ? holds(distribution.quantile(0.5)) : std::all_of(distribution.values.begin(), distribution.values.end(), holds);
 }
 
 std::vector<std::string> Design::point(long run) const {
   std::vector<std::string> values;
   const long inner = drawn_ * group_ * grid_;
-  if (!list_.empty()) values = list_[static_cast<std::size_t>(run / inner)];
+  if (list_) values = list_->row(run / inner);
   long rest = run % inner, stride = inner;
   for (const Variation& variation : variations_) {
     stride /= static_cast<long>(variation.values.size());

@@ -78,8 +78,10 @@ Division divide_sweep(Sweep& sweep, const Engine& engine) {
   const double start = thread_cpu_seconds();
   double spent = 0;
   long done = 0;
+  SpoolFile file;
   for (; done < measured && spent < longest_measurement; ++done) {
-    sweep.make(runs * (2 * done + 1) / (2 * measured), false);
+    Spool rows(file);
+    sweep.make(runs * (2 * done + 1) / (2 * measured), rows, false);
     spent = thread_cpu_seconds() - start;
   }
   const double all = spent / static_cast<double>(done) * static_cast<double>(runs);

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <exception>
+#include <iterator>
 #include <map>
 #include <mutex>
 #include <thread>
@@ -13,7 +14,7 @@
 namespace rheonet::tool {
 namespace {
 
-constexpr std::size_t most_waiting = 256 << 20;             // Size of the waiting texts [bytes].
+constexpr std::size_t most_waiting = 256 << 20;             // Size of the waiting texts, on disk [bytes].
 constexpr std::chrono::milliseconds longest_wait{100};      // Delay of the response to an interrupt.
 constexpr std::chrono::milliseconds between_notices{10};    // A wake-up takes about a tenth of the time of a short run.
 
@@ -50,11 +51,10 @@ class InOrder {
         task = next_++;
       }
       try {
-        auto text = tasks_.make(task, stop_);
-        if (!text) continue;
+        Spool text(file_);
+        if (!tasks_.make(task, text, stop_)) continue;
         const std::scoped_lock lock(mutex_);
-        bytes_ += text->size();
-        waiting_.emplace(task, std::move(*text));
+        add(task, std::move(text));
         ++done_;
         const auto now = std::chrono::steady_clock::now();
         if (now - last_notice_ < between_notices && done_ < tasks_.end - tasks_.first) continue;
@@ -68,20 +68,40 @@ class InOrder {
     }
   }
 
-  /// Takes the next text if it is ready within `longest_wait`. Returns false to stop.
+  /// Adds the text of a task, and joins it with those of the tasks before and after it: there is never more than one gap for each running
+  /// task, so few texts wait.
+  void add(long task, Spool text) {
+    bytes_ += text.size();
+    long first = task, end = task + 1;
+    auto after = waiting_.lower_bound(end);
+    if (after != waiting_.begin())
+      if (const auto before = std::prev(after); before->second.end == task) {
+        first = before->first;
+        before->second.text.append(std::move(text));
+        text = std::move(before->second.text);
+        waiting_.erase(before);
+      }
+    if (after != waiting_.end() && after->first == end) {
+      end = after->second.end;
+      text.append(std::move(after->second.text));
+      waiting_.erase(after);
+    }
+    waiting_.emplace(first, Texts{end, std::move(text)});
+  }
+
+  /// Takes the next texts if there are some within `longest_wait`. Returns false to stop.
   bool take_ready() {
     std::unique_lock lock(mutex_);
     ready_.wait_for(lock, longest_wait, [this] { return waiting_.contains(taken_) || stop_; });
-    for (auto next = waiting_.find(taken_); next != waiting_.end(); next = waiting_.find(taken_)) {
-      const std::string text = std::move(next->second);
-      waiting_.erase(next);
-      bytes_ -= text.size();
-      lock.unlock();
-      room_.notify_all();
-      if (!tasks_.take(text)) return false;
-      lock.lock();
-      ++taken_;
-    }
+    auto next = waiting_.extract(taken_);
+    if (next.empty()) return true;
+    Texts& texts = next.mapped();
+    bytes_ -= texts.text.size();
+    lock.unlock();
+    room_.notify_all();
+    if (!texts.text.take(tasks_.take)) return false;
+    lock.lock();
+    taken_ = texts.end;
     return true;
   }
 
@@ -93,11 +113,18 @@ class InOrder {
     room_.notify_all();
   }
 
+  /// The texts of consecutive tasks.
+  struct Texts {
+    long end = 0;  ///< Behind the last task.
+    Spool text;
+  };
+
   const Tasks& tasks_;
+  SpoolFile file_;
   std::mutex mutex_;
   std::condition_variable ready_, room_;
-  std::map<long, std::string> waiting_;  ///< Texts that are not taken yet.
-  std::size_t bytes_ = 0;                ///< Size of the waiting texts.
+  std::map<long, Texts> waiting_;  ///< Texts that are not taken yet, by their first task.
+  std::size_t bytes_ = 0;          ///< Size of the waiting texts.
   long next_;                            ///< Next task to start.
   long taken_;                           ///< Next task whose text is to be taken.
   std::atomic<long> done_ = 0;

@@ -5,6 +5,7 @@
 #include <new>
 #include <system_error>
 
+#include "core/result/csv.hpp"
 #include "tools/rheonet/interrupt.hpp"
 #include "tools/rheonet/say.hpp"
 
@@ -24,6 +25,8 @@ int run_program(int count, char** words, const std::function<ExitStatus(const Ar
     }
     return status;
   } catch (const std::system_error& error) {
+    say("error: {}\n", error.what());
+  } catch (const WriteError& error) {
     say("error: {}\n", error.what());
   } catch (const std::bad_alloc&) {
     say("error: out of memory\n");

@@ -12,9 +12,10 @@
 #include <fstream>
 #include <iterator>
 #include <map>
+#include <memory>
 #include <optional>
 
-#include "core/netlist/file_cache.hpp"
+#include "tools/rheonet/point_list.hpp"
 #include "tools/rheonet/words.hpp"
 
 namespace rheonet::tool {
@@ -23,6 +24,11 @@ namespace {
 /// CRC-64 of ECMA-182, as in xz, of null-terminated texts.
 class CheckSum {
  public:
+  void add(std::istream& text) {
+    std::string piece(1 << 16, '\0');
+    while (text.read(piece.data(), static_cast<std::streamsize>(piece.size())), text.gcount() > 0) sum_.process_bytes(piece.data(), static_cast<std::size_t>(text.gcount()));
+    sum_.process_byte(0);
+  }
   void add(const std::string& text) { sum_.process_bytes(text.c_str(), text.size() + 1); }
   std::string text() const { return fmt::format("{:016x}", sum_.checksum()); }
 
@@ -147,7 +153,11 @@ SweepIdentity::SweepIdentity(const Arguments& arguments, const Sources& sources)
     of_command.add("");
   }
   std::string why;
-  of_command.add(sweep.list.empty() ? "" : rheonet::read_text(sweep.list, why).value_or(""));
+  const std::unique_ptr<std::istream> list = sweep.list.empty() ? nullptr : PointList::open(sweep.list, why);
+  if (list)
+    of_command.add(*list);
+  else
+    of_command.add("");
   of_command.add(fmt::format("{} {} {} {} {} {}", sweep.random, sweep.latin, sweep.sobol, sweep.seed.value_or(1), sweep.indices,
                              arguments.accuracy.value_or(0)));
   command = of_command.text();

@@ -13,6 +13,7 @@
 
 #include "core/netlist/characters.hpp"
 #include "core/result/cpu_time.hpp"
+#include "core/result/csv.hpp"
 #include "tools/rheonet/commands.hpp"
 #include "tools/rheonet/design.hpp"
 #include "tools/rheonet/engine_script.hpp"
@@ -87,11 +88,13 @@ std::variant<Left, NoVariation> SweepJob::left() const {
                                    .behind = behind_,
                                    .key = [this](long run) { return sweep_.key(run); }});
   const Left* left = std::get_if<Left>(&found);
-  if (!left || left->last.empty()) return found;
-  const auto again = sweep_.make(left->runs, false);
-  if (again && again->starts_with(left->last)) return found;
-  const auto differ = std::mismatch(left->last.begin(), left->last.end(), again->begin(), again->end());
-  const auto line = left->lines + 1 + std::count(left->last.begin(), differ.first, '\n');
+  if (!left || left->last == 0) return found;
+  SpoolFile spool;
+  Spool again(spool);
+  sweep_.make(left->runs, again, false);
+  const std::optional<long> difference = first_difference(file, left->bytes, left->last, again);
+  if (!difference) return found;
+  const long line = left->lines + 1 + *difference;
   return NoVariation{fmt::format("`--resume`: run {} comes out otherwise than in {}:{}: the scene, the command or the program "
                                  "has changed",
                                  left->runs + 1, file, line),
@@ -125,23 +128,32 @@ bool SweepJob::simulate(const Left& left) {
   const std::atomic<bool>& interrupted = end_on_signals();
   Progress progress(!arguments_.quiet && !output_->is_terminal());
   long end = left.runs;
-  if (left.bytes > 0 || write((options_.shard ? first_line(shard_, runs_, identity_) : "") + sweep_.header(), false))
-    end = do_in_order({.first = left.runs,
-                       .end = behind_,
-                       .jobs = jobs_,
-                       .make = [&](long run, const std::atomic<bool>& stop) { return sweep_.make(run, stop); },
-                       .take = [&](const std::string& text) { return write(text); },
-                       .go_on =
-                           [&](long done) {
-                             progress.update(static_cast<double>(done) / static_cast<double>(behind_ - left.runs));
-                             return !interrupted.load();
-                           }});
+  std::string failure;
+  try {
+    if (left.bytes > 0 || write((options_.shard ? first_line(shard_, runs_, identity_) : "") + sweep_.header(), false))
+      end = do_in_order({.first = left.runs,
+                         .end = behind_,
+                         .jobs = jobs_,
+                         .make = [&](long run, Spool& rows, const std::atomic<bool>& stop) { return sweep_.make(run, rows, stop); },
+                         .take = [&](const std::string& lines) { return write(lines); },
+                         .go_on =
+                             [&](long done) {
+                               progress.update(static_cast<double>(done) / static_cast<double>(behind_ - left.runs));
+                               return !interrupted.load();
+                             }});
+  } catch (const WriteError& error) {
+    failure = error.what();
+  }
   progress.erase();
   if (end == behind_ && options_.shard) write(last_line(shard_), false);
   if (!close()) return false;
   if (end == behind_) return true;
-  say("error: the sweep was interrupted after {} of {} runs\n{}", end - first_, behind_ - first_, output_->kept("row"));
-  interrupt_is_told();
+  if (failure.empty()) {
+    say("error: the sweep was interrupted after {} of {} runs\n{}", end - first_, behind_ - first_, output_->kept("row"));
+    interrupt_is_told();
+  } else {
+    say("error: {}\n{}", failure, output_->kept("row"));
+  }
   if (arguments_.output != "-" && !table_format(arguments_.output)) say("  with `--resume` it goes on there\n");
   return false;
 }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -11,6 +12,23 @@
 namespace rheonet::tool {
 
 bool is_of_failed_run(std::string_view row) { return !row.ends_with(",\n"); }
+
+std::optional<long> first_difference(const std::string& file, std::size_t begin, std::size_t size, Spool& text) {
+  std::ifstream in(file, std::ios::binary);
+  in.seekg(static_cast<std::streamoff>(begin));
+  long line = 0;
+  std::string found;
+  const bool same = text.take([&](const std::string& lines) {
+    found.resize(std::min(size, lines.size()));
+    in.read(found.data(), static_cast<std::streamsize>(found.size()));
+    size -= found.size();
+    const auto differ = std::mismatch(found.begin(), found.end(), lines.begin());
+    line += std::count(found.begin(), differ.first, '\n');
+    return in.good() && differ.first == found.end();
+  });
+  if (same && size == 0) return {};
+  return line;
+}
 
 std::variant<Left, NoVariation> what_is_left(const std::string& file, const Expected& expected) {
   Left left;
@@ -43,6 +61,7 @@ std::variant<Left, NoVariation> what_is_left(const std::string& file, const Expe
   left.bytes = bytes;
   left.lines = lines;
   long run = expected.first, count = 0;  // The number of the run whose rows are read, and the number of these rows.
+  bool failed = false;                   // Whether the last of these rows says that the run failed.
   std::string begin = run < expected.behind ? expected.key(run) : "";
   while (next(line)) {
     if (!expected.end.empty() && expected.end.starts_with(line)) break;
@@ -52,16 +71,17 @@ std::variant<Left, NoVariation> what_is_left(const std::string& file, const Expe
     if (!line.starts_with(begin) && !begin.starts_with(line)) {
       if (count == 0 || ++run >= expected.behind) return other(number, fmt::format("does not begin with `{}`", begin));
       left.runs = run;
-      left.bytes += left.last.size();
-      if (is_of_failed_run(left.last)) ++left.failed;
+      left.bytes += left.last;
+      if (failed) ++left.failed;
       left.lines += count;
-      left.last.clear();
+      left.last = 0;
       count = 0;
       begin = expected.key(run);
       if (!line.starts_with(begin) && !begin.starts_with(line))
         return other(number, fmt::format("does not begin with `{}`", begin));
     }
-    left.last += line;
+    left.last += line.size();
+    failed = is_of_failed_run(line);
     ++count;
   }
   return left;

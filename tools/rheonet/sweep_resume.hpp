@@ -1,10 +1,12 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
 
+#include "tools/rheonet/spool.hpp"
 #include "tools/rheonet/variation.hpp"
 
 namespace rheonet::tool {
@@ -15,7 +17,7 @@ struct Left {
   std::size_t bytes = 0;  ///< Size of the complete runs and of the lines before them.
   long lines = 0;
   long failed = 0;  ///< Of the complete runs, those that failed.
-  std::string last;  ///< Text after the complete runs: the last run, whose end may be missing.
+  std::size_t last = 0;  ///< Size of the text after the complete runs: the last run, whose end may be missing [bytes].
 };
 
 /// The table that the file should be the beginning of.
@@ -29,6 +31,10 @@ struct Expected {
 
 /// Whether a row of a sweep's table is that of a failed run: its last cell has the reason.
 bool is_of_failed_run(std::string_view row);
+
+/// The line, counted from 0, in which a text differs from a piece of a file that should be its beginning, `size` bytes from `begin` on. Absent
+/// if they do not differ. Empties the text. Throws WriteError.
+std::optional<long> first_difference(const std::string& file, std::size_t begin, std::size_t size, Spool& text);
 
 /// Reads the file run by run. Returns a NoVariation if it is not the beginning of the expected table.
 std::variant<Left, NoVariation> what_is_left(const std::string& file, const Expected& expected);

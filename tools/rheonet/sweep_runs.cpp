@@ -6,6 +6,7 @@
 
 #include "core/netlist/characters.hpp"
 #include "core/network/component.hpp"
+#include "core/result/csv.hpp"
 #include "tools/rheonet/reading.hpp"
 
 namespace rheonet::tool {
@@ -29,10 +30,7 @@ std::string first_mistake(const ReadResult& read) {
 
 tables::Layout Sweep::layout() const {
   std::vector<bool> is_text;
-  for (std::size_t path = 0; path < design_.paths().size(); ++path) {
-    const std::vector<std::string> values = design_.listed_values(path);
-    is_text.push_back(!std::all_of(values.begin(), values.end(), is_number));
-  }
+  for (std::size_t path = 0; path < design_.paths().size(); ++path) is_text.push_back(!design_.all_of(path, is_number));
   return table_.layout(title_, some_points(), is_text);
 }
 
@@ -89,27 +87,35 @@ bool Sweep::begin() {
   return false;
 }
 
-std::optional<std::string> Sweep::make(long run, const std::atomic<bool>& stop) {
+bool Sweep::make(long run, Spool& rows, const std::atomic<bool>& stop) {
   const std::vector<std::string> values = design_.point(run);
   const std::string begin = SweepTable::key(run + 1, values);
   const ReadResult read = this->read(values);
   try {
     if (!read.scene) throw SimulationError(first_mistake(read));
     table_.check_records(read.scene->records);
-    std::string text;
     RunSettings settings;
     settings.interrupt = &stop;
     settings.account = table_.needs_account();
+    std::string row;
     if (!table_.measures())
-      settings.row = [&](double time, const std::vector<double>& values) { SweepTable::append(text, begin, time, values); };
+      settings.row = [&](double time, const std::vector<double>& values) {
+        row.clear();
+        SweepTable::append(row, begin, time, values);
+        rows.append(row);
+      };
     const Summary summary = rheonet::run(*read.scene, settings);
     simulating_ += summary.cpu_seconds;
-    return table_.measures() ? table_.row(begin, summary) : text;
+    if (table_.measures()) rows.append(table_.row(begin, summary));
+  } catch (const WriteError&) {
+    throw;
   } catch (const SimulationError& error) {
-    if (stop) return {};
+    if (stop) return false;
     ++failed_;
-    return table_.failed(begin, error.what());
+    rows.clear();
+    rows.append(table_.failed(begin, error.what()));
   }
+  return true;
 }
 
 }  // namespace rheonet::tool

@@ -1,13 +1,13 @@
 #pragma once
 
 #include <atomic>
-#include <optional>
 #include <string>
 
 #include "core/netlist/read.hpp"
 #include "tools/rheonet/arguments.hpp"
 #include "tools/rheonet/design.hpp"
 #include "tools/rheonet/reading.hpp"
+#include "tools/rheonet/spool.hpp"
 #include "tools/rheonet/sweep_table.hpp"
 
 namespace rheonet::tool {
@@ -31,8 +31,9 @@ class Sweep {
   /// messages, if the sweep cannot begin.
   bool begin();
 
-  /// The rows of a run; nothing if it was stopped. May be called on any thread.
-  std::optional<std::string> make(long run, const std::atomic<bool>& stop);
+  /// Simulates a run and appends its rows to an empty text. Returns false if it was stopped. May be called on any thread. Throws WriteError if
+  /// a temporary file cannot be written: that is no fault of the run.
+  bool make(long run, Spool& rows, const std::atomic<bool>& stop);
 
   const Sources& sources() const { return first_.sources; }
   const SweepTable& table() const { return table_; }

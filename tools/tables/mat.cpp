@@ -1,5 +1,5 @@
+#include <fcntl.h>
 #include <matio.h>
-#include <sys/mman.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -9,8 +9,11 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
+#include <limits>
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <system_error>
 
@@ -37,47 +40,105 @@ std::string allowed(const std::string& name, std::set<std::string>& used) {
   return result;
 }
 
-struct Free {
-  void operator()(matvar_t* variable) const { Mat_VarFree(variable); }
-};
-using Variable = std::unique_ptr<matvar_t, Free>;
-
-Variable text_variable(const char* name, const std::string& text) {
-  std::size_t size[2] = {text.empty() ? std::size_t{0} : std::size_t{1}, text.size()};
-  return Variable(Mat_VarCreate(name, MAT_C_CHAR, MAT_T_UTF8, 2, size, const_cast<char*>(text.data()), 0));  // copied
-}
-
-Variable cells(const char* name, const std::vector<std::string>& texts) {
-  std::size_t size[2] = {texts.size(), 1};
-  Variable cell(Mat_VarCreate(name, MAT_C_CELL, MAT_T_CELL, 2, size, nullptr, 0));
-  if (!cell) fail();
-  for (std::size_t k = 0; k < texts.size(); ++k) Mat_VarSetCell(cell.get(), static_cast<int>(k), text_variable(nullptr, texts[k]).release());
-  return cell;
-}
-
 struct Close {
   void operator()(std::FILE* file) const { std::fclose(file); }
 };
-using Scratch = std::unique_ptr<std::FILE, Close>;
+using File = std::unique_ptr<std::FILE, Close>;
 
-Scratch scratch() {
-  Scratch file(std::tmpfile());
-  if (!file) fail();
-  return file;
+void put(std::FILE* file, const void* bytes, std::size_t size) {
+  if (std::fwrite(bytes, 1, size, file) != size) fail();
 }
 
+/// A temporary file without a name beside another one, whose disk has to have room for the same numbers.
+File scratch_beside(const std::string& path) {
+  std::error_code error;
+  const std::filesystem::path file = std::filesystem::read_symlink(path, error);  // `path` may be that of a descriptor, in /proc.
+  std::string name = ((error ? std::filesystem::path(path) : file).parent_path() / ".rheonet-XXXXXX").string();
+  const int descriptor = ::mkostemp(name.data(), O_CLOEXEC);
+  if (descriptor < 0) fail();
+  ::unlink(name.c_str());
+  File scratch(::fdopen(descriptor, "w+"));
+  if (!scratch) fail();
+  return scratch;
+}
+
+// The format: MathWorks, "MAT-File Format", version 5. An element is a tag (type, bytes), and data padded to 8 bytes.
+enum class Type : std::uint32_t { int8 = 1, int32 = 5, uint32 = 6, float64 = 9, matrix = 14, utf8 = 16 };
+enum class Class : std::uint32_t { cell = 1, text = 4, float64 = 6 };
+constexpr std::size_t tag_size = 8;
+
+std::size_t padded(std::size_t size) { return (size + 7) / 8 * 8; }
+
+void put_tag(std::FILE* file, Type type, std::size_t size) {
+  if (size > std::numeric_limits<std::uint32_t>::max()) {
+    errno = EFBIG;
+    fail();
+  }
+  const std::uint32_t tag[] = {static_cast<std::uint32_t>(type), static_cast<std::uint32_t>(size)};
+  put(file, tag, sizeof tag);
+}
+
+void put_element(std::FILE* file, Type type, const std::string& bytes) {
+  put_tag(file, type, bytes.size());
+  const std::string filled = bytes + std::string(padded(bytes.size()) - bytes.size(), '\0');
+  put(file, filled.data(), filled.size());
+}
+
+/// The size of a matrix in the file. `content` is the size of what follows its head.
+std::size_t matrix_size(const std::string& name, std::size_t content) { return 4 * tag_size + tag_size + padded(name.size()) + content; }
+
+/// The head of a matrix with `rows` x `columns` entries.
+void put_head(std::FILE* file, Class type, std::size_t rows, std::size_t columns, const std::string& name, std::size_t content) {
+  put_tag(file, Type::matrix, matrix_size(name, content));
+  const std::uint32_t flags[] = {static_cast<std::uint32_t>(type), 0};
+  put_tag(file, Type::uint32, sizeof flags);
+  put(file, flags, sizeof flags);
+  const std::int32_t size[] = {static_cast<std::int32_t>(rows), static_cast<std::int32_t>(columns)};
+  put_tag(file, Type::int32, sizeof size);
+  put(file, size, sizeof size);
+  put_element(file, Type::int8, name);
+}
+
+void put_text(std::FILE* file, const std::string& name, const std::string& text) {
+  const auto characters = std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; });
+  put_head(file, Class::text, text.empty() ? 0 : 1, static_cast<std::size_t>(characters), name, tag_size + padded(text.size()));
+  put_element(file, Type::utf8, text);
+}
+
+/// The cells of an array of texts, in a temporary file.
+class Cells {
+ public:
+  explicit Cells(File file) : file_(std::move(file)) {}
+
+  /// Returns the index, from 1.
+  std::size_t add(const std::string& text) {
+    put_text(file_.get(), "", text);
+    return ++count_;
+  }
+
+  void put_array(std::FILE* file, const std::string& name) const {
+    const long bytes = std::ftell(file_.get());
+    if (bytes < 0 || std::fflush(file_.get()) != 0) fail();
+    put_head(file, Class::cell, count_, 1, name, static_cast<std::size_t>(bytes));
+    std::rewind(file_.get());
+    std::vector<char> piece(1 << 16);
+    for (std::size_t read = 0; (read = std::fread(piece.data(), 1, piece.size(), file_.get())) > 0;) put(file, piece.data(), read);
+    if (std::ferror(file_.get()) != 0) fail();
+  }
+
+ private:
+  File file_;
+  std::size_t count_ = 0;
+};
+
 /// MAT 5, which MATLAB, Octave and SciPy read. A column is a vector of that name; text is a vector of numbers, each the place of the text in
-/// the cell array NAME_texts, 0 for none. A variable is written as a whole, so the rows wait in a temporary file, and the memory
-/// does not grow with their number.
+/// the cell array NAME_texts, 0 for none. A vector begins with its length, so the rows wait in a temporary file, and the memory does
+/// not grow with their number. (libmatio takes whole vectors.)
 class MatFile : public TableFile {
  public:
-  MatFile(const char* path, const Layout& layout) : layout_(layout), path_(path), rows_(scratch()), codes_(layout.columns.size()) {
-    errno = 0;
-    mat_ = Mat_CreateVer(path, layout.program.c_str(), MAT_FT_MAT5);
-    if (!mat_) fail();
-  }
-  ~MatFile() override {
-    if (mat_) Mat_Close(mat_);
+  MatFile(const char* path, const Layout& layout)
+      : layout_(layout), path_(path), file_(std::fopen(path, "wb")), rows_(scratch_beside(path)), texts_(layout.columns.size()) {
+    if (!file_) fail();
   }
 
   void append(const Rows& rows) override {
@@ -85,107 +146,87 @@ class MatFile : public TableFile {
     count_ += rows.count;
     for (std::size_t k = 0; k < layout_.columns.size(); ++k) {
       std::vector<double> numbers = rows.numbers[k];
-      for (const std::string& text : rows.texts[k]) numbers.push_back(code(k, text));
-      if (std::fwrite(numbers.data(), sizeof(double), numbers.size(), rows_.get()) != numbers.size()) fail();
+      for (const std::string& text : rows.texts[k]) numbers.push_back(index(k, text));
+      put(rows_.get(), numbers.data(), numbers.size() * sizeof(double));
     }
   }
 
   void close() override {
-    errno = 0;
+    put_header();
     std::set<std::string> used{"title", "source", "columns", "units"};
-    std::vector<std::string> names, units, titles;
+    Cells units(scratch_beside(path_)), titles(scratch_beside(path_));
     if (std::fflush(rows_.get()) != 0) fail();
     for (std::size_t k = 0; k < layout_.columns.size(); ++k) {
-      names.push_back(allowed(layout_.columns[k].name, used));
-      titles.push_back(layout_.columns[k].name);
-      units.push_back(layout_.columns[k].unit);
-      write_column(k, names.back());
+      const std::string name = allowed(layout_.columns[k].name, used);
+      titles.add(layout_.columns[k].name);
+      units.add(layout_.columns[k].unit);
+      put_column(k, name);
       if (layout_.columns[k].kind != Column::Kind::text) continue;
-      std::vector<std::string> texts(codes_[k].size());
-      for (const auto& [text, place] : codes_[k]) texts[place - 1] = text;
-      write(cells(allowed(names.back() + "_texts", used).c_str(), texts));
+      if (!texts_[k].cells) texts_[k].cells.emplace(scratch_beside(path_));
+      texts_[k].cells->put_array(file_.get(), allowed(name + "_texts", used));
     }
-    write(text_variable("title", layout_.title));
-    write(text_variable("source", layout_.program));
-    write(cells("columns", titles));
-    write(cells("units", units));
-    const int closed = Mat_Close(mat_);
-    mat_ = nullptr;
-    if (closed != 0) fail();
-    const int error = errno;
-    for (std::size_t k = 0; k < names.size(); ++k) {
-      if (is_written(k, names[k])) continue;
-      errno = error == ENOSPC || error == EFBIG || error == EDQUOT ? error : EIO;
-      fail();
-    }
+    put_text(file_.get(), "title", layout_.title);
+    put_text(file_.get(), "source", layout_.program);
+    titles.put_array(file_.get(), "columns");
+    units.put_array(file_.get(), "units");
+    if (std::fclose(file_.release()) != 0) fail();
   }
 
  private:
-  double code(std::size_t column, const std::string& text) {
+  /// The different texts of a column.
+  struct Texts {
+    std::map<std::string, std::size_t> indices;
+    std::optional<Cells> cells;
+  };
+
+  double index(std::size_t column, const std::string& text) {
+    constexpr std::size_t most_known = 10'000;  // A text that is not known any more is written again.
     if (text.empty()) return 0;
-    auto& codes = codes_[column];
-    return static_cast<double>(codes.emplace(text, codes.size() + 1).first->second);
+    Texts& texts = texts_[column];
+    const auto known = texts.indices.find(text);
+    if (known != texts.indices.end()) return static_cast<double>(known->second);
+    if (!texts.cells) texts.cells.emplace(scratch_beside(path_));
+    if (texts.indices.size() == most_known) texts.indices.clear();
+    return static_cast<double>(texts.indices[text] = texts.cells->add(text));
   }
 
-  void write(const Variable& variable) {
-    if (!variable || Mat_VarWrite(mat_, variable.get(), MAT_COMPRESSION_NONE) != 0) fail();
+  void put_header() {
+    constexpr std::size_t text_size = 124;
+    std::string text = "MATLAB 5.0 MAT-file, created by " + layout_.program;
+    text.resize(text_size, ' ');
+    put(file_.get(), text.data(), text.size());
+    const std::uint16_t version_and_order[] = {0x0100, ('M' << 8) | 'I'};  // The reader sees "IM" if the bytes have to be swapped.
+    put(file_.get(), version_and_order, sizeof version_and_order);
   }
 
-  /// Calls take(first row, numbers) for each piece of a column.
-  template <class Take>
-  void for_pieces(std::size_t column, const Take& take) {
-    const std::size_t columns = layout_.columns.size();
+  void put_column(std::size_t column, const std::string& name) {
+    const std::size_t columns = layout_.columns.size(), bytes = count_ * sizeof(double);
+    put_head(file_.get(), Class::float64, count_, 1, name, tag_size + bytes);
+    put_tag(file_.get(), Type::float64, bytes);
     std::size_t before = 0;  // rows
     std::vector<double> piece;
     for (const std::size_t count : pieces_) {
       piece.resize(count);
       const auto place = static_cast<off_t>((before * columns + column * count) * sizeof(double));
-      const auto bytes = static_cast<ssize_t>(count * sizeof(double));
-      if (::pread(fileno(rows_.get()), piece.data(), static_cast<std::size_t>(bytes), place) != bytes) fail();
-      take(before, piece);
+      const auto size = static_cast<ssize_t>(count * sizeof(double));
+      if (::pread(fileno(rows_.get()), piece.data(), static_cast<std::size_t>(size), place) != size) fail();
+      put(file_.get(), piece.data(), static_cast<std::size_t>(size));
       before += count;
     }
   }
 
-  /// The library does not say that the disk is full: the file is read again.
-  bool is_written(std::size_t column, const std::string& name) {
-    const std::unique_ptr<mat_t, decltype(&Mat_Close)> mat(Mat_Open(path_.c_str(), MAT_ACC_RDONLY), &Mat_Close);
-    const Variable variable(mat ? Mat_VarReadInfo(mat.get(), name.c_str()) : nullptr);
-    if (!variable || variable->rank != 2 || variable->dims[0] != count_) return false;
-    bool same = true;
-    std::vector<double> found;
-    for_pieces(column, [&](std::size_t before, const std::vector<double>& piece) {
-      found.assign(piece.size(), 0);
-      same = same && Mat_VarReadDataLinear(mat.get(), variable.get(), found.data(), static_cast<int>(before), 1, static_cast<int>(piece.size())) == 0 &&
-             std::memcmp(found.data(), piece.data(), piece.size() * sizeof(double)) == 0;
-    });
-    return same;
-  }
-
-  /// Gathers a column in a second file, and writes it from there.
-  void write_column(std::size_t column, const std::string& name) {
-    const Scratch gathered = scratch();
-    for_pieces(column, [&](std::size_t, const std::vector<double>& piece) {
-      if (std::fwrite(piece.data(), sizeof(double), piece.size(), gathered.get()) != piece.size()) fail();
-    });
-    if (std::fflush(gathered.get()) != 0) fail();
-    std::size_t size[2] = {count_, 1};
-    const std::size_t bytes = count_ * sizeof(double);
-    void* const data = bytes == 0 ? nullptr : ::mmap(nullptr, bytes, PROT_READ, MAP_PRIVATE, fileno(gathered.get()), 0);
-    if (data == MAP_FAILED) fail();
-    const auto unmap = [bytes](void* mapped) { ::munmap(mapped, bytes); };
-    const std::unique_ptr<void, decltype(unmap)> mapped(data, unmap);
-    write(Variable(Mat_VarCreate(name.c_str(), MAT_C_DOUBLE, MAT_T_DOUBLE, 2, size, data, MAT_F_DONT_COPY_DATA)));
-  }
-
   const Layout layout_;
   const std::string path_;
-  mat_t* mat_ = nullptr;
-  Scratch rows_;
-  std::vector<std::size_t> pieces_;  ///< rows in each
+  File file_, rows_;
+  std::vector<std::size_t> pieces_;  ///< Rows in each.
   std::size_t count_ = 0;
-  std::vector<std::map<std::string, std::size_t>> codes_;  ///< of each column of text
+  std::vector<Texts> texts_;  ///< Of each column.
 };
+
+struct Free {
+  void operator()(matvar_t* variable) const { Mat_VarFree(variable); }
+};
+using Variable = std::unique_ptr<matvar_t, Free>;
 
 /// The numbers of a vector or of each column of a matrix, as `name`, or as `name_1`, `name_2`, ...
 struct NamedColumn {

@@ -30,6 +30,8 @@ void add_text(int file, int variable, const char* name, const std::string& text)
 
 /// Variables over one unlimited dimension. A column that is called as the rows are is the coordinate.
 class NetcdfFile : public TableFile {
+  static constexpr std::size_t chunk = 8192;  // rows
+
  public:
   NetcdfFile(const char* path, const Layout& layout) {
     H5dont_atexit();  // At exit HDF5 would flush unfinished files, and crash if the disk is full.
@@ -44,7 +46,6 @@ class NetcdfFile : public TableFile {
         const nc_type type = column.kind == Column::Kind::number ? NC_DOUBLE : column.kind == Column::Kind::text ? NC_STRING : NC_INT64;
         int& variable = variables_.emplace_back();
         check(nc_def_var(file_, allowed(column.name).c_str(), type, 1, &dimension, &variable));
-        constexpr std::size_t chunk = 8192;  // rows
         check(nc_def_var_chunking(file_, variable, NC_CHUNKED, &chunk));
         constexpr std::size_t cache = 1 << 18, slots = 13;  // bytes for a few chunks: rows come one after the other
         check(nc_set_var_chunk_cache(file_, variable, cache, slots, 1));
@@ -52,6 +53,7 @@ class NetcdfFile : public TableFile {
         if (!column.unit.empty() && type == NC_DOUBLE) add_text(file_, variable, "units", column.unit);
         add_text(file_, variable, "long_name", column.name);
       }
+      written_.resize(variables_.size());
       check(nc_enddef(file_));
     } catch (...) {
       nc_abort(file_);
@@ -66,6 +68,11 @@ class NetcdfFile : public TableFile {
     errno = 0;
     for (std::size_t k = 0; k < variables_.size(); ++k) {
       if (!rows.texts[k].empty()) {
+        // A text costs more time and memory than a row of numbers, and most cells of `error` are empty. Those after the last text that is
+        // written read as "".
+        if (std::all_of(rows.texts[k].begin(), rows.texts[k].end(), [](const std::string& text) { return text.empty(); })) continue;
+        put_empty_texts(k);
+        written_[k] = row_ + rows.count;
         std::vector<const char*> texts;
         for (const std::string& text : rows.texts[k]) texts.push_back(text.c_str());
         check(nc_put_vara_string(file_, variables_[k], &row_, &rows.count, texts.data()));
@@ -83,9 +90,19 @@ class NetcdfFile : public TableFile {
   }
 
  private:
+  /// For the rows of a variable up to here that are not written: HDF5 could not read them.
+  void put_empty_texts(std::size_t k) {
+    std::vector<const char*> texts(chunk, "");
+    for (std::size_t row = written_[k]; row < row_; row += chunk) {
+      const std::size_t count = std::min(chunk, row_ - row);
+      check(nc_put_vara_string(file_, variables_[k], &row, &count, texts.data()));
+    }
+  }
+
   int file_ = 0;
   bool open_ = true;
   std::vector<int> variables_;
+  std::vector<std::size_t> written_;  ///< Rows of each variable of texts that are written.
   std::size_t row_ = 0;
 };
 
