@@ -75,6 +75,15 @@ TEST_CASE("sweep: shards that are no whole sweep of this scene are not merged, a
   refused(drawn + " --merge part-*.csv", "`part-3.csv` is not complete");
   folder.write("part-3.csv", third.substr(0, third.find("\n70,") + 1) + third.substr(third.find("\n72,") + 1));
   refused(drawn + " --merge part-*.csv", "`part-3.csv` is damaged: line ");
+  // A missing cell, a changed value, a cell that is no number, a number that is none, a cell too many.
+  const std::size_t row = third.find("\n70,") + 1, behind = third.find('\n', row);
+  const std::string line = third.substr(row, behind - row), cut = line.substr(0, line.size() - 1), rest = line.substr(line.find(',', 3));
+  for (const std::string& damaged : {cut.substr(0, cut.rfind(',')) + ",", std::string("70,7") + rest, cut.substr(0, cut.rfind(',')) + ",abc,",
+                                     cut.substr(0, cut.rfind(',')) + ",nan,", cut + ",1,"}) {
+    CAPTURE(damaged);
+    folder.write("part-3.csv", third.substr(0, row) + damaged + third.substr(behind));
+    refused(drawn + " --merge part-*.csv", "`part-3.csv` is damaged: line ");
+  }
   folder.write("part-3.csv", third);
   folder.write("scene.toml", "title = \"changed\"\n" + std::string(dragged_dashpot));
   refused(drawn + " --merge part-*.csv", "`part-1.csv` is a shard of another scene, or the scene has changed since");

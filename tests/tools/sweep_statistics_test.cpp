@@ -166,6 +166,7 @@ TEST_CASE("sweep: statistics that cannot be are refused") {
     CHECK_FALSE(folder.has("sweep.csv"));
   };
   refused("--vary parameters.B=1:2 --random 4 --statistics s.json", "`--statistics` is of measures, and none is asked for");
+  refused("--vary parameters.B=1:2 --random 4 --measure steps --statistics no/s.json", "cannot write to");
   refused("--vary parameters.B=1,2 --measure steps --statistics s.json", "a grid of values has no distribution");
   refused("--vary parameters.B=1:2 --random 4 --measure steps --quantiles 0.5", "`--quantiles` is for `--statistics FILE.json`");
   refused("--vary parameters.B=1:2 --random 4 --measure steps --statistics s.json --quantiles 5", "above 0 and below 1, not `5`");

@@ -229,6 +229,30 @@ TEST_CASE("sweep: a resumed or merged file with failed runs has status 1, and th
   }
 }
 
+TEST_CASE("sweep --resume: a change that the last run does not feel is seen in the first") {
+  const Folder folder(oscillator);
+  const std::string sweep = "rheonet sweep scene.toml --vary k1.stiffness=100,50,20 --measure 'max(block.position)' -o sweep.csv --resume -q";
+  folder.write("sweep.csv", [&] {
+    folder.shell(sweep, 0);
+    const std::string rows = folder.read("sweep.csv");
+    return rows.substr(0, rows.find("\n3,") + 1);
+  }());
+  const std::string begun = folder.read("sweep.csv");
+  // Run 2 as it comes out of the changed scene.
+  folder.shell("rheonet sweep scene.toml --vary k1.stiffness=100,50 --set nodes.block.position=0.002 --measure 'max(block.position)' -o other.csv -q", 0);
+  const std::string other = folder.read("other.csv");
+  folder.write("sweep.csv", begun.substr(0, begun.find("\n2,") + 1) + other.substr(other.find("\n2,") + 1));
+  CHECK(contains(folder.shell(sweep + " --set nodes.block.position=0.002", 2).err, "run 1 comes out otherwise than in sweep.csv:2"));
+}
+
+TEST_CASE("sweep: the list of values is not overwritten") {
+  const Folder folder(oscillator);
+  folder.write("list.csv", "k1.stiffness\n100\n50\n");
+  const std::string sweep = "rheonet sweep scene.toml --list list.csv --measure 'max(block.position)' ";
+  CHECK(contains(folder.shell(sweep + "-o list.csv", 2).err, "`--output list.csv` would overwrite the list of values"));
+  CHECK(folder.read("list.csv") == "k1.stiffness\n100\n50\n");
+}
+
 TEST_CASE("sweep: what is not of this sweep is not gone on with, and not lost") {
   const Folder folder(oscillator);
   folder.shell("rheonet " + many + "-o sweep.csv -q", 0);
@@ -239,6 +263,9 @@ TEST_CASE("sweep: what is not of this sweep is not gone on with, and not lost") 
     CHECK(folder.read("sweep.csv") == whole);
   };
   refused(many + "-o sweep.csv --measure steps", "sweep.csv:1 names other columns");
+  folder.write("sweep.csv", whole.substr(0, whole.find('\n', whole.find("\n9,") + 1) - 1) + whole.substr(whole.find("\n10,")));
+  CHECK(contains(folder.shell("rheonet " + many + "-o sweep.csv --resume", 2).err, "sweep.csv:10 is damaged"));
+  folder.write("sweep.csv", whole);
   refused(many + "-o sweep.csv --set nodes.block.position=0.002", "run 300 comes out otherwise than in sweep.csv:301: the scene");
   refused("sweep scene.toml --vary k1.stiffness=50:500:21 block_mass.mass=1:3:15 --measure 'min(block.position)' 'time of min(block.position)' -o sweep.csv",
           "sweep.csv:17 does not begin with `16,72.5,1,`");

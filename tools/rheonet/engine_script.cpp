@@ -81,7 +81,8 @@ Division divide_sweep(Sweep& sweep, const Engine& engine) {
   SpoolFile file;
   for (; done < measured && spent < longest_measurement; ++done) {
     Spool rows(file);
-    sweep.make(runs * (2 * done + 1) / (2 * measured), rows, false);
+    const long run = runs * (2 * done + 1) / (2 * measured);
+    sweep.make(run, run + 1, rows, false);
     spent = thread_cpu_seconds() - start;
   }
   const double all = spent / static_cast<double>(done) * static_cast<double>(runs);

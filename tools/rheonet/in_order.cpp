@@ -16,6 +16,7 @@ namespace {
 
 constexpr std::size_t most_waiting = 256 << 20;             // Size of the waiting texts, on disk [bytes].
 constexpr std::chrono::milliseconds longest_wait{100};      // Delay of the response to an interrupt.
+constexpr std::chrono::milliseconds short_time{10};         // Tasks that take less than this together are short.
 constexpr std::chrono::milliseconds between_notices{10};    // A wake-up takes about a tenth of the time of a short run.
 
 class InOrder {
@@ -41,22 +42,26 @@ class InOrder {
 
  private:
   void work() {
-    for (;;) {
-      long task = 0;
+    for (long count = 1;;) {
+      long first = 0, end = 0;
       {
         std::unique_lock lock(mutex_);
         // No deadlock: the task whose text is to be taken next has been started, unless no text waits.
         room_.wait(lock, [this] { return stop_ || bytes_ < most_waiting; });
         if (stop_ || next_ >= tasks_.end) return;
-        task = next_++;
+        first = next_;
+        // At the end the tasks are shared among all threads.
+        end = next_ += std::clamp((tasks_.end - next_) / (2L * tasks_.jobs), 1L, count);
       }
+      const auto begin = std::chrono::steady_clock::now();
       try {
         Spool text(file_);
-        if (!tasks_.make(task, text, stop_)) continue;
-        const std::scoped_lock lock(mutex_);
-        add(task, std::move(text));
-        ++done_;
+        if (!tasks_.make(first, end, text, stop_)) continue;
         const auto now = std::chrono::steady_clock::now();
+        count = now - begin < short_time ? std::min(2 * count, tasks_.most_at_once) : std::max(count / 2, 1L);
+        const std::scoped_lock lock(mutex_);
+        add(first, end, std::move(text));
+        done_ += end - first;
         if (now - last_notice_ < between_notices && done_ < tasks_.end - tasks_.first) continue;
         last_notice_ = now;
       } catch (...) {
@@ -68,14 +73,13 @@ class InOrder {
     }
   }
 
-  /// Adds the text of a task, and joins it with those of the tasks before and after it: there is never more than one gap for each running
-  /// task, so few texts wait.
-  void add(long task, Spool text) {
+  /// Adds the text of tasks, and joins it with those of the tasks before and after them: there is never more than one gap for each thread, so
+  /// few texts wait.
+  void add(long first, long end, Spool text) {
     bytes_ += text.size();
-    long first = task, end = task + 1;
     auto after = waiting_.lower_bound(end);
     if (after != waiting_.begin())
-      if (const auto before = std::prev(after); before->second.end == task) {
+      if (const auto before = std::prev(after); before->second.end == first) {
         first = before->first;
         before->second.text.append(std::move(text));
         text = std::move(before->second.text);
@@ -125,8 +129,8 @@ class InOrder {
   std::condition_variable ready_, room_;
   std::map<long, Texts> waiting_;  ///< Texts that are not taken yet, by their first task.
   std::size_t bytes_ = 0;          ///< Size of the waiting texts.
-  long next_;                            ///< Next task to start.
-  long taken_;                           ///< Next task whose text is to be taken.
+  long next_;                      ///< Next task to start.
+  long taken_;                     ///< Next task whose text is to be taken.
   std::atomic<long> done_ = 0;
   std::atomic<bool> stop_ = false;
   std::exception_ptr failure_;

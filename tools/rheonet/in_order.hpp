@@ -12,9 +12,10 @@ namespace rheonet::tool {
 struct Tasks {
   long first = 0, end = 0;  ///< Numbers of the tasks: first .. end - 1.
   int jobs = 1;             ///< Number of threads.
-  /// Produces the text of a task, of whole lines, on any thread. Returns false if it was stopped: `stop` becomes true when no more texts are
-  /// wanted.
-  std::function<bool(long task, Spool& text, const std::atomic<bool>& stop)> make;
+  long most_at_once = 1;    ///< Consecutive tasks that a thread takes at once, while they are short.
+  /// Produces the texts of the tasks first .. end - 1, of whole lines, on any thread. Returns false if it was stopped: `stop` becomes true when
+  /// no more texts are wanted.
+  std::function<bool(long first, long end, Spool& text, const std::atomic<bool>& stop)> make;
   /// Takes the texts in the order of the tasks, in pieces of whole lines, on the calling thread. Returns false to stop.
   std::function<bool(const std::string& lines)> take;
   /// Called on the calling thread at intervals, with the number of finished tasks. Returns false to stop.

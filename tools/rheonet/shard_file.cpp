@@ -16,6 +16,7 @@
 #include <optional>
 
 #include "tools/rheonet/point_list.hpp"
+#include "tools/rheonet/sweep_resume.hpp"
 #include "tools/rheonet/words.hpp"
 
 namespace rheonet::tool {
@@ -108,7 +109,8 @@ std::variant<std::vector<Part>, NoVariation> all_parts(const std::vector<std::st
 }
 
 /// Reads the rows of a shard and passes them to `take` in pieces. Returns false if `take` does.
-std::variant<bool, NoVariation> read_rows(const Part& part, long runs, const std::string& header, const std::function<bool(const std::string&)>& take) {
+std::variant<bool, NoVariation> read_rows(const Part& part, long runs, const std::string& header, const std::function<std::string(long)>& key,
+                                          const std::function<bool(const std::string&)>& take) {
   constexpr std::size_t piece = 1 << 16;
   std::ifstream in(part.file, std::ios::binary);
   std::string line, lines;
@@ -117,6 +119,7 @@ std::variant<bool, NoVariation> read_rows(const Part& part, long runs, const std
   if (line + '\n' != header) return no_shard(part.file, "has other columns than this sweep");
   const std::string end = last_line(part.shard);
   long run = part.shard.first(runs);  // The next run.
+  std::string begin;                  // The cells that the rows of the run before it begin with.
   const long behind = part.shard.end(runs);
   for (long number = 3; std::getline(in, line); ++number) {
     line += '\n';
@@ -126,9 +129,11 @@ std::variant<bool, NoVariation> read_rows(const Part& part, long runs, const std
     }
     long found = 0;
     const auto read = std::from_chars(line.data(), line.data() + line.size(), found);
-    const bool is_row = read.ec == std::errc() && *read.ptr == ',';
+    const bool is_of_run = read.ec == std::errc() && *read.ptr == ',';
     // Rows are in the order of the runs: each belongs to the same run as the row before it, or to the next run.
-    if (!is_row || (found != run && found != run + 1) || found > behind || (found == run && run == part.shard.first(runs)))
+    const bool in_order = is_of_run && (found == run || found == run + 1) && found <= behind && (found > run || run > part.shard.first(runs));
+    if (in_order && found > run) begin = key(run);
+    if (!in_order || !is_row(std::string_view(line).substr(0, line.size() - 1), begin, header))
       return no_shard(part.file, fmt::format("is damaged: line {} is not a row of run {}", number, run + 1));
     run = found;
     lines += line;
@@ -170,13 +175,14 @@ std::string first_line(const Shard& shard, long runs, const SweepIdentity& ident
 std::string last_line(const Shard& shard) { return fmt::format("# end of shard {}/{}\n", shard.number, shard.of); }
 
 std::variant<bool, NoVariation> merge_shards(const std::vector<std::string>& files, long runs, const SweepIdentity& identity,
-                                             const std::string& header, const std::function<bool(const std::string& lines)>& take) {
+                                             const std::string& header, const std::function<std::string(long run)>& key,
+                                             const std::function<bool(const std::string& lines)>& take) {
   auto found = all_parts(files, runs, identity);
   if (auto* wrong = std::get_if<NoVariation>(&found)) return std::move(*wrong);
   const auto& parts = std::get<std::vector<Part>>(found);
   const auto read_all = [&](const std::function<bool(const std::string&)>& to) -> std::variant<bool, NoVariation> {
     for (const Part& part : parts) {
-      auto read = read_rows(part, runs, header, to);
+      auto read = read_rows(part, runs, header, key, to);
       const bool* went_on = std::get_if<bool>(&read);
       if (!went_on || !*went_on) return read;
     }

@@ -70,6 +70,7 @@ class SweepJob {
   long runs_, first_, behind_;  ///< Runs first_ .. behind_ - 1, counted from 0.
   SweepIdentity identity_;
   std::optional<Statistics> statistics_;
+  std::unique_ptr<Output> statistics_output_;
   std::vector<MeasureStatistics> results_;
   std::unique_ptr<Output> output_;
   int jobs_ = 1;
@@ -77,7 +78,8 @@ class SweepJob {
   long earlier_failures_ = 0;  ///< Failed runs in merged shards, or in the file that is resumed.
 };
 
-/// The rows of an interrupted sweep. The last run is simulated again: equal rows show that the scene and the program have not changed.
+/// The rows of an interrupted sweep. The first and the last run are simulated again: equal rows show that the scene and the program have not
+/// changed.
 std::variant<Left, NoVariation> SweepJob::left() const {
   const std::string& file = arguments_.output;
   if (file == "-") return NoVariation{"`--resume` needs the file to go on with", "-o sweep.csv"};
@@ -91,14 +93,19 @@ std::variant<Left, NoVariation> SweepJob::left() const {
   if (!left || left->last == 0) return found;
   SpoolFile spool;
   Spool again(spool);
-  sweep_.make(left->runs, again, false);
-  const std::optional<long> difference = first_difference(file, left->bytes, left->last, again);
-  if (!difference) return found;
-  const long line = left->lines + 1 + *difference;
-  return NoVariation{fmt::format("`--resume`: run {} comes out otherwise than in {}:{}: the scene, the command or the program "
-                                 "has changed",
-                                 left->runs + 1, file, line),
-                     "without `--resume` the file is written anew"};
+  const auto changed = [&](long run, long line) {
+    return NoVariation{fmt::format("`--resume`: run {} comes out otherwise than in {}:{}: the scene, the command or the program has changed", run + 1,
+                                   file, line),
+                       "without `--resume` the file is written anew"};
+  };
+  sweep_.make(left->runs, left->runs + 1, again, false);
+  if (const auto difference = first_difference(file, left->bytes, left->last, again)) return changed(left->runs, left->lines + 1 + *difference);
+  if (left->runs == first_) return found;
+  again.clear();
+  sweep_.make(first_, first_ + 1, again, false);
+  const std::size_t size = again.size();
+  if (const auto difference = first_difference(file, left->head, size, again)) return changed(first_, (options_.shard ? 3 : 2) + *difference);
+  return found;
 }
 
 /// Adds the existing rows to the statistics. Returns false, after a message, if they cannot be read.
@@ -134,7 +141,8 @@ bool SweepJob::simulate(const Left& left) {
       end = do_in_order({.first = left.runs,
                          .end = behind_,
                          .jobs = jobs_,
-                         .make = [&](long run, Spool& rows, const std::atomic<bool>& stop) { return sweep_.make(run, rows, stop); },
+                         .most_at_once = sweep_.most_at_once(),
+                         .make = [&](long first, long behind, Spool& rows, const std::atomic<bool>& stop) { return sweep_.make(first, behind, rows, stop); },
                          .take = [&](const std::string& lines) { return write(lines); },
                          .go_on =
                              [&](long done) {
@@ -173,7 +181,7 @@ bool SweepJob::merge() {
         if (is_of_failed_run(std::string_view(lines).substr(begin, end + 1 - begin))) ++earlier_failures_;
     return write(lines, !std::exchange(is_header, false));
   };
-  const auto merged = merge_shards(options_.merge, runs_, identity_, sweep_.header(), take);
+  const auto merged = merge_shards(options_.merge, runs_, identity_, sweep_.header(), [this](long run) { return sweep_.key(run); }, take);
   const NoVariation* wrong = std::get_if<NoVariation>(&merged);
   if (wrong) refuse(*wrong);
   if (wrong && is_header) output_->abandon();
@@ -192,8 +200,7 @@ bool SweepJob::write_statistics() {
   nlohmann::ordered_json head{{"program", "rheonet " RHEONET_VERSION}, {"scene", arguments_.scene}, {"title", sweep_.title()}, {"runs", runs_}, {"failed", statistics_->failed()}};
   for (const auto& [way, count] : {std::pair{"random", o.random}, {"latin", o.latin}, {"sobol", o.sobol}})
     if (count > 0) head["points"] = {{"kind", way}, {"count", count}, {"seed", o.seed.value_or(1)}};
-  const auto output = open_output(o.statistics, Output::Writing::complete);
-  return output && write_all(*output, as_json(std::move(head), results_, sweep_.design(), sweep_.table()).dump(2) + '\n', "line");
+  return write_all(*statistics_output_, as_json(std::move(head), results_, sweep_.design(), sweep_.table()).dump(2) + '\n', "line");
 }
 
 void SweepJob::summarize(const Left& left, double wall) const {
@@ -225,6 +232,8 @@ ExitStatus SweepJob::go() {
     earlier_failures_ = left.failed - sweep_.failed();  // the run that was simulated to check the file is simulated again
     if (!take_left(left)) return wrong_input;
   }
+  if (statistics_) statistics_output_ = open_output(options_.statistics, Output::Writing::complete);
+  if (statistics_ && !statistics_output_) return wrong_input;
   const bool as_it_comes = options_.merge.empty() && !table_format(arguments_.output);
   output_ = as_it_comes ? open_output_after(arguments_.output, left.bytes, left.lines)
                         : open_table(arguments_.output, Output::Writing::complete, sweep_.layout());
@@ -278,8 +287,14 @@ ExitStatus sweep_scene(const Arguments& arguments) {
   Sweep sweep(arguments, std::get<Design>(std::move(design)), std::get<SweepTable>(std::move(table)));
   if (!sweep.begin()) return wrong_input;
   if (is_source(arguments.output, "--output", sweep.sources()) || !can_be_table(arguments.output, "--output", true)) return wrong_input;
-  if (is_source(arguments.sweep.statistics, "--statistics", sweep.sources())) return wrong_input;
   const SweepArguments& options = arguments.sweep;
+  if (is_source(options.statistics, "--statistics", sweep.sources())) return wrong_input;
+  for (const auto& [option, file] : {std::pair{"--output", &arguments.output}, {"--statistics", &options.statistics}}) {
+    std::error_code failed;
+    if (options.list.empty() || !std::filesystem::equivalent(options.list, *file, failed)) continue;
+    say("error: `{} {}` would overwrite the list of values\n", option, printable(*file));
+    return wrong_input;
+  }
   if (options.slurm || options.parallel) {
     const Division division = divide_sweep(sweep, options.slurm ? slurm : gnu_parallel);
     fmt::print("{}", options.slurm ? slurm_script(arguments, division) : parallel_script(arguments, division));

@@ -4,14 +4,29 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <utility>
+#include <vector>
+
+#include "core/netlist/csv_fields.hpp"
 
 namespace rheonet::tool {
 
 bool is_of_failed_run(std::string_view row) { return !row.ends_with(",\n"); }
+
+bool is_row(std::string_view line, std::string_view key, std::string_view header) {
+  if (!line.starts_with(key)) return false;
+  const std::vector<CsvField> cells = csv_fields(line);
+  if (cells.size() != csv_fields(header).size()) return false;
+  const auto is_value = [](const CsvField& cell) {
+    const std::optional<double> value = csv_number(cell);
+    return cell.text.empty() || (value && std::isfinite(*value));
+  };
+  return std::all_of(cells.begin() + static_cast<std::ptrdiff_t>(csv_fields(key).size()) - 1, cells.end() - 1, is_value);
+}
 
 std::optional<long> first_difference(const std::string& file, std::size_t begin, std::size_t size, Spool& text) {
   std::ifstream in(file, std::ios::binary);
@@ -58,7 +73,7 @@ std::variant<Left, NoVariation> what_is_left(const std::string& file, const Expe
     bytes += line.size();
     ++lines;
   }
-  left.bytes = bytes;
+  left.bytes = left.head = bytes;
   left.lines = lines;
   long run = expected.first, count = 0;  // The number of the run whose rows are read, and the number of these rows.
   bool failed = false;                   // Whether the last of these rows says that the run failed.
@@ -80,6 +95,8 @@ std::variant<Left, NoVariation> what_is_left(const std::string& file, const Expe
       if (!line.starts_with(begin) && !begin.starts_with(line))
         return other(number, fmt::format("does not begin with `{}`", begin));
     }
+    if (line.back() == '\n' && !is_row(std::string_view(line).substr(0, line.size() - 1), begin, expected.header))
+      return other(number, "is damaged");
     left.last += line.size();
     failed = is_of_failed_run(line);
     ++count;

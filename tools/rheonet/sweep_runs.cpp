@@ -87,10 +87,16 @@ bool Sweep::begin() {
   return false;
 }
 
-bool Sweep::make(long run, Spool& rows, const std::atomic<bool>& stop) {
-  const std::vector<std::string> values = design_.point(run);
-  const std::string begin = SweepTable::key(run + 1, values);
-  const ReadResult read = this->read(values);
+bool Sweep::make(long first, long end, Spool& rows, const std::atomic<bool>& stop) {
+  std::vector<std::pair<std::string, ReadResult>> scenes;
+  for (long run = first; run < end; ++run) {
+    const std::vector<std::string> values = design_.point(run);
+    scenes.emplace_back(SweepTable::key(run + 1, values), read(values));
+  }
+  return std::all_of(scenes.begin(), scenes.end(), [&](const auto& scene) { return make(scene.second, scene.first, rows, stop); });
+}
+
+bool Sweep::make(const ReadResult& read, const std::string& key, Spool& rows, const std::atomic<bool>& stop) {
   try {
     if (!read.scene) throw SimulationError(first_mistake(read));
     table_.check_records(read.scene->records);
@@ -101,19 +107,19 @@ bool Sweep::make(long run, Spool& rows, const std::atomic<bool>& stop) {
     if (!table_.measures())
       settings.row = [&](double time, const std::vector<double>& values) {
         row.clear();
-        SweepTable::append(row, begin, time, values);
+        SweepTable::append(row, key, time, values);
         rows.append(row);
       };
     const Summary summary = rheonet::run(*read.scene, settings);
     simulating_ += summary.cpu_seconds;
-    if (table_.measures()) rows.append(table_.row(begin, summary));
+    if (table_.measures()) rows.append(table_.row(key, summary));
   } catch (const WriteError&) {
     throw;
   } catch (const SimulationError& error) {
     if (stop) return false;
     ++failed_;
-    rows.clear();
-    rows.append(table_.failed(begin, error.what()));
+    if (!table_.measures()) rows.clear();
+    rows.append(table_.failed(key, error.what()));
   }
   return true;
 }
