@@ -112,7 +112,6 @@ class SideBySide {
         settings.events = outcome.events->file();
       }
       outcome.summary = run_whole(partition_.subscenes[k].scene, settings);
-      settings.progress(1);
     } catch (...) {
       outcome.failure = std::current_exception();
     }
