@@ -74,6 +74,31 @@ def test_a_killed_worker_loses_nothing(cluster, scene):
     assert found.identical(expected)
 
 
+@pytest.mark.parametrize("tasks", [1, 7, 64])
+def test_the_number_of_tasks_does_not_matter_and_a_killed_one_is_done_again(cluster, scene, tmp_path, monkeypatch, tasks):
+    def group(items, function):  # that of rheonet, but the middle task ends with its worker when it is begun for the first time
+        results = [function(item) for item in items]
+        if middle in [point for point, _ in items]:
+            try:
+                os.mkdir(folder)
+                os.kill(os.getpid(), signal.SIGKILL)
+            except FileExistsError:
+                pass
+        return results
+
+    values = {"k1.k": [50 + k for k in range(1 + 7 * 64)]}  # the first run is simulated here
+    middle, folder = (50 + 7 * 32,), str(tmp_path / "killed")
+    monkeypatch.setattr(rheonet._parallel, "TASK_COST", 0)
+    monkeypatch.setattr(rheonet._parallel, "SCHEDULED_AT_ONCE", tasks)
+    monkeypatch.setattr(rheonet._parallel, "_group", group)
+    sent = []
+    original = cluster.map
+    monkeypatch.setattr(cluster, "map", lambda task, groups, **options: sent.extend(groups) or original(task, groups, **options))
+    found = scene.sweep(values, "min(a.position)", client=cluster)
+    assert len(sent) == tasks and os.path.isdir(folder)
+    assert found.identical(scene.sweep(values, "min(a.position)"))
+
+
 def test_an_error_says_which_run(cluster, scene):
     with pytest.raises(rheonet.NetlistError) as error:
         scene.sweep({"k1.k": [100, 200, -3]}, "min(a.position)", client=cluster, on_error="raise")

@@ -1,13 +1,14 @@
 #!/usr/bin/env bash
-# engines.sh ENGINE PROGRAM: what `rheonet sweep --ENGINE` prints runs on the real engine, here on this host alone. A sweep in 7 and
-# in 64 shards, one of which is killed, gives the same bytes as without shards. It exits with 77 (skipped) where the engine is
-# missing, or cannot be started.
+# engines.sh ENGINE PROGRAM: what `rheonet sweep --ENGINE` prints runs on the real engine, here on this host alone. A sweep in 1, 7 and
+# 64 shards gives the same bytes as without shards, although tasks are killed, or the processes of the engine, and the sweep is resumed. It exits
+# with 77 (skipped) where the engine is missing, or cannot be started.
 set -euo pipefail
 engine=$1 program=$2
 folder=$(mktemp -d)
-daemons=()
+daemons=()  # Processes.
+node=       # The process of the daemon that starts tasks.
 finish() {
-  [ ${#daemons[@]} -eq 0 ] || kill "${daemons[@]}" 2>/dev/null || true
+  [ ${#daemons[@]} -eq 0 ] || kill "${daemons[@]}" $node 2>/dev/null || true
   wait
   rm -rf "$folder"
 }
@@ -31,12 +32,22 @@ sweep=(sweep scene.toml --vary 'k1.stiffness=normal(100 N/m, 5 %)' 'm1.mass=logn
   --measure 'max(k1.force)' 'time of crossing(k1.force, 0 N)')
 "$program" "${sweep[@]}" -q -o whole.csv
 
-# The program, but shard 3 is killed when it is begun for the first time.
+# The program, but those shards that the file `victims` names are killed when they are begun for the first time. If there is a file `engine`, the
+# processes that it names are killed too, and the parent of the shard that has $parent in its command line: the process that the engine starts tasks with.
+parent=slurmstepd
+[ "$engine" = slurm ] || parent=bin/parallel
 cat >program <<SH
 #!/bin/bash
-case "\$*" in
-  *"--shard 3/"*) if mkdir "$folder/killed" 2>/dev/null; then timeout -s KILL 0.05 "$program" "\$@"; kill -KILL \$\$; fi ;;
-esac
+shard=\$(sed -n 's,.*--shard \([0-9]*\)/.*,\1,p' <<<"\$*")
+if [ -n "\$shard" ] && grep -qxe all -e "\$shard" "$folder/victims" && mkdir "$folder/killed-\$shard" 2>/dev/null; then
+  timeout -s KILL 0.03 "$program" "\$@"
+  if [ -e "$folder/engine" ]; then
+    pid=\$PPID
+    until [ "\$pid" -le 1 ] || grep -q $parent "/proc/\$pid/cmdline"; do pid=\$(sed 's,.*) ,,' "/proc/\$pid/stat" | cut -d ' ' -f 2); done
+    [ "\$pid" -gt 1 ] && kill -KILL \$(cat "$folder/engine") "\$pid" && touch "$folder/engine-killed"
+  fi
+  kill -KILL \$\$
+fi
 exec "$program" "\$@"
 SH
 chmod +x program
@@ -50,19 +61,31 @@ script() {
 }
 
 check_shards() {
-  [ -d killed ] || fail "no shard was killed"
+  [ "$(ls -d killed-* | wc -l)" -eq "$2" ] || fail "of $1 shards $(ls -d killed-* | wc -l) were killed, not $2"
   cmp whole.csv out.csv
   [ "$(ls out.shard-*.csv | wc -l)" -eq "$1" ] || fail "expected $1 shards"
-  rm -rf out* killed
+  rm -rf out* killed-*
 }
 
 if [ "$engine" = parallel ]; then
   command -v parallel >/dev/null || skip "GNU parallel is missing (Debian: parallel)"
   export HOME=$folder
-  for shards in 7 64; do
+  echo all >victims
+  for shards in 1 7 64; do
     script "$shards"
     bash script.sh -j 2 2>log || { cat log; exit 1; }
-    check_shards "$shards"
+    check_shards "$shards" "$shards"
+  done
+  # Of a killed engine the other tasks live on for a while, and write to the files that the next one resumes.
+  touch engine
+  for victim in 1:1 7:3 64:40; do
+    echo "${victim#*:}" >victims
+    script "${victim%:*}"
+    bash script.sh -j 2 >log 2>&1 && fail "a killed engine is not reported"
+    [ -e engine-killed ] || fail "the engine was not killed: $(cat log)"
+    bash script.sh -j 2 2>log || { cat log; exit 1; }
+    check_shards "${victim%:*}" 1
+    rm engine-killed
   done
   exit 0
 fi
@@ -92,7 +115,8 @@ SelectType=select/cons_tres
 SelectTypeParameters=CR_CPU
 JobAcctGatherType=jobacct_gather/none
 SchedulerParameters=sched_interval=1,batch_sched_delay=0
-NodeName=localhost NodeAddr=127.0.0.1 CPUs=$(nproc) State=UNKNOWN
+SlurmdParameters=config_overrides
+NodeName=localhost NodeAddr=127.0.0.1 CPUs=16 State=UNKNOWN
 PartitionName=all Nodes=localhost Default=YES MaxTime=INFINITE State=UP
 CONF
 export SLURM_CONF=$folder/slurm.conf
@@ -102,19 +126,60 @@ daemons+=($!)
 for _ in $(seq 50); do [ -S munge.socket ] && break; sleep 0.1; done
 slurmctld -D -c >slurmctld.log 2>&1 &
 daemons+=($!)
-slurmd -D -N localhost >slurmd.log 2>&1 &
-daemons+=($!)
-idle=no
-for _ in $(seq 100); do
-  if grep -q idle <<<"$(sinfo -h -o %T 2>/dev/null)"; then idle=yes; break; fi
-  sleep 0.2
-done
-[ "$idle" = yes ] || { tail -n 5 munged.out slurmctld.log slurmd.log; skip "Slurm does not start here"; }
+# Starts the daemon of the node. Returns 1 if it does not answer.
+start_node() {
+  slurmd -D -N localhost >>slurmd.log 2>&1 &
+  node=$!
+  for _ in $(seq 100); do
+    if grep -qE 'idle|mixed|allocated|completing' <<<"$(sinfo -h -o %T 2>/dev/null)"; then return 0; fi
+    sleep 0.2
+  done
+  return 1
+}
+start_node || { tail -n 5 munged.out slurmctld.log slurmd.log; skip "Slurm does not start here"; }
 
-for shards in 7 64; do
+# Submits the script and waits until no task of it is left. (sbatch --wait asks only every few seconds.)
+submit() {
+  job=$(sbatch --parsable "$@" script.sh)
+  local left
+  until left=$(squeue -h -j "$job" 2>>log) && [ -z "$left" ]; do sleep 0.1; done
+}
+merge() { bash script.sh merge 2>log || { cat log out*.log; exit 1; }; }
+
+echo all >victims
+for shards in 1 7; do
   script "$shards"
-  sbatch --wait script.sh >log 2>&1 && fail "a killed task is not reported"
-  sbatch --wait --array=3 script.sh >>log 2>&1 || { cat log out*.log; exit 1; }
-  bash script.sh merge 2>>log || { cat log out*.log; exit 1; }
-  check_shards "$shards"
+  submit
+  grep -q JobState=FAILED <<<"$(scontrol show job "$job")" || fail "a killed task is not reported"
+  submit
+  merge
+  check_shards "$shards" "$shards"
+done
+script 64
+echo 3 >victims
+submit
+submit --array=3
+merge
+check_shards 64 1
+
+# The host goes down: its daemon, the process that looks after a task, and the task. Of 64 tasks the others have ended before: the controller would
+# wait a minute for those that the daemon lost.
+for victim in 1:1 7:4 64:40; do
+  shards=${victim%:*} tasks=()
+  echo "${victim#*:}" >victims
+  script "$shards"
+  if [ "$shards" -eq 64 ]; then
+    tasks=(--array=40)
+    submit --array=1-39,41-64
+  fi
+  echo "$node" >engine
+  job=$(sbatch --parsable "${tasks[@]}" script.sh)
+  for _ in $(seq 200); do [ -e engine-killed ] && break; sleep 0.1; done
+  [ -e engine-killed ] || fail "the engine was not killed"
+  rm engine engine-killed
+  start_node || fail "the daemon of the node does not start again"
+  scancel "$job"
+  submit "${tasks[@]}"
+  merge
+  check_shards "$shards" 1
 done

@@ -28,8 +28,13 @@ class InOrder {
       std::vector<std::jthread> workers;
       for (long k = 0; k < std::min<long>(tasks_.jobs, tasks_.end - tasks_.first); ++k)
         workers.emplace_back([this] { work(); });
-      while (!stop_ && taken_ < tasks_.end) {
-        if (!take_ready() || !tasks_.go_on(done_)) end();
+      try {
+        while (!stop_ && taken_ < tasks_.end) {
+          if (!take_ready() || !tasks_.go_on(done_)) end();
+        }
+      } catch (...) {
+        end();  // Else the workers would go on.
+        throw;
       }
       end();
     }

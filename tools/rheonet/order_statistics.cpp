@@ -2,14 +2,12 @@
 
 #include <array>
 #include <bit>
-#include <cerrno>
 #include <map>
-#include <system_error>
 
 namespace rheonet::tool {
 namespace {
 
-[[noreturn]] void fail() { throw std::system_error(errno, std::generic_category(), "a temporary file for the quantiles"); }
+constexpr std::size_t block = 4096;  // numbers
 
 constexpr std::uint64_t sign = std::uint64_t{1} << 63U;
 
@@ -22,17 +20,27 @@ double value_of(std::uint64_t key) { return std::bit_cast<double>((key & sign) !
 
 }  // namespace
 
-OrderStatistics::OrderStatistics() : file_(std::tmpfile()) {
-  if (!file_) fail();
-}
-
 void OrderStatistics::add(double value) {
-  value += 0.0;  // Turns -0 into 0.
-  if (std::fwrite(&value, sizeof value, 1, file_.get()) != 1) fail();
+  if (block_.size() == block) {
+    file_.write(block_.data(), block * sizeof(double), written_);
+    written_ += static_cast<std::int64_t>(block * sizeof(double));
+    block_.clear();
+  }
+  block_.push_back(value + 0.0);  // Turns -0 into 0.
   ++count_;
 }
 
-std::vector<double> OrderStatistics::of_ranks(const std::vector<long>& ranks) {
+template <class Take>
+void OrderStatistics::for_each(const Take& take) const {
+  std::vector<double> values(block);
+  for (std::int64_t place = 0; place < written_; place += static_cast<std::int64_t>(block * sizeof(double))) {
+    file_.read(values.data(), block * sizeof(double), place);
+    for (const double value : values) take(value);
+  }
+  for (const double value : block_) take(value);
+}
+
+std::vector<double> OrderStatistics::of_ranks(const std::vector<long>& ranks) const {
   // Radix selection. The leading bits of the number at each rank are known; each pass over the file counts the values of the next bits
   // among all numbers with the same leading bits.
   constexpr unsigned radix_bits = 8;
@@ -45,16 +53,11 @@ std::vector<double> OrderStatistics::of_ranks(const std::vector<long>& ranks) {
   for (unsigned known = 0; known < 64; known += radix_bits) {
     std::map<std::uint64_t, std::array<long, 1U << radix_bits>> counts;
     for (const Search& search : searches) counts[search.prefix].fill(0);
-    if (std::fflush(file_.get()) != 0) fail();
-    std::rewind(file_.get());
-    std::array<double, 4096> values{};
-    for (std::size_t read = 0; (read = std::fread(values.data(), sizeof(double), values.size(), file_.get())) > 0;)
-      for (std::size_t k = 0; k < read; ++k) {
-        const std::uint64_t key = key_of(values[k]);
-        const auto of_prefix = counts.find(known == 0 ? 0 : key >> (64 - known));
-        if (of_prefix != counts.end()) ++of_prefix->second[key >> (64 - known - radix_bits) & ((1U << radix_bits) - 1)];
-      }
-    if (std::ferror(file_.get()) != 0) fail();
+    for_each([&](double value) {
+      const std::uint64_t key = key_of(value);
+      const auto of_prefix = counts.find(known == 0 ? 0 : key >> (64 - known));
+      if (of_prefix != counts.end()) ++of_prefix->second[key >> (64 - known - radix_bits) & ((1U << radix_bits) - 1)];
+    });
     for (Search& search : searches) {
       const auto& of_prefix = counts[search.prefix];
       std::size_t digit = 0;

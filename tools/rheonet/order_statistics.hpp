@@ -1,30 +1,29 @@
 #pragma once
 
 #include <cstdint>
-#include <cstdio>
-#include <memory>
 #include <vector>
+
+#include "core/result/temporary_file.hpp"
 
 namespace rheonet::tool {
 
 /// Exact order statistics of many numbers. The numbers are kept in a temporary file, so that memory does not grow with their count.
 class OrderStatistics {
  public:
-  /// Throws std::system_error if no temporary file can be created.
-  OrderStatistics();
-
-  /// Adds a finite number. Throws std::system_error if the disk is full.
+  /// Adds a finite number. Throws WriteError if the disk is full.
   void add(double value);
   long count() const { return count_; }
 
-  /// The numbers of these ranks, each from 1 (the smallest) to `count`, in ascending order of the ranks. Throws std::system_error.
-  std::vector<double> of_ranks(const std::vector<long>& ranks);
+  /// The numbers of these ranks, each from 1 (the smallest) to `count`, in ascending order of the ranks. Throws WriteError.
+  std::vector<double> of_ranks(const std::vector<long>& ranks) const;
 
  private:
-  struct Close {
-    void operator()(std::FILE* file) const { std::fclose(file); }
-  };
-  std::unique_ptr<std::FILE, Close> file_;
+  template <class Take>
+  void for_each(const Take& take) const;
+
+  TemporaryFile file_{"the values for the quantiles"};
+  std::int64_t written_ = 0;   ///< Size of the file [bytes].
+  std::vector<double> block_;  ///< The last numbers.
   long count_ = 0;
 };
 

@@ -68,7 +68,7 @@ class Statistics {
   Statistics(const Design& design, const SweepTable& table, std::vector<double> probabilities);
   ~Statistics();
 
-  /// Takes complete rows of the table as CSV, in the order of the runs. Throws std::system_error if a disk is full.
+  /// Takes complete rows of the table as CSV, in the order of the runs. Throws WriteError if a disk is full.
   void take(std::string_view rows);
 
   /// The statistics of each measure, in order.
