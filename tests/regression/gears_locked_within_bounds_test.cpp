@@ -145,6 +145,17 @@ worm = { type = "gear", between = ["b", "c"], ratio = -2, efficiency = [0.35, -0
 free = { type = "freewheel", between = ["a", "ground"] }
 push = { type = "torque", at = "a", torque = { sine = 3, frequency = 1 } }
 )"},
+    {"a gear that begins to slip into one that carries nothing", R"(
+J0 = { type = "inertia", at = "a", inertia = 2 }
+J1 = { type = "inertia", at = "b", inertia = 1 }
+J2 = { type = "inertia", at = "c", inertia = 1 }
+J3 = { type = "inertia", at = "d", inertia = 1 }
+gear1 = { type = "gear", between = ["a", "b"], ratio = 1, efficiency = 0.7 }
+gear2 = { type = "gear", between = ["a", "c"], ratio = 3, efficiency = [0.75, 0.05] }
+gear3 = { type = "gear", between = ["c", "d"], ratio = 3, efficiency = 0.7 }
+push = { type = "torque", at = "c", torque = { sine = 2, frequency = 1 } }
+pull = { type = "torque", at = "d", torque = -2 }
+)"},
 };
 
 }  // namespace
