@@ -156,6 +156,15 @@ gear3 = { type = "gear", between = ["c", "d"], ratio = 3, efficiency = 0.7 }
 push = { type = "torque", at = "c", torque = { sine = 2, frequency = 1 } }
 pull = { type = "torque", at = "d", torque = -2 }
 )"},
+    {"a worm gear that nothing drives from behind, and a gear behind it", R"(
+J0 = { type = "inertia", at = "a", inertia = 1 }
+J1 = { type = "inertia", at = "b", inertia = 1 }
+J2 = { type = "inertia", at = "c", inertia = 1 }
+worm = { type = "gear", between = ["a", "b"], ratio = -2, efficiency = [0.6057, 0] }
+gear = { type = "gear", between = ["c", "b"], ratio = -1.1319, efficiency = [0.8935, 0.2479], bearing = 0.2309 }
+shake = { type = "torque", at = "b", torque = { triangle = 2, frequency = 2 } }
+push = { type = "torque", at = "a", torque = { sine = 3, frequency = 3, offset = -1 } }
+)"},
 };
 
 }  // namespace
