@@ -188,12 +188,13 @@ void ConvexNetwork::stick_at_first() {
   for (std::size_t k = 0; k < n; ++k) follow(static_cast<int>(k), head[at(sets.find(static_cast<int>(k)))]);
 }
 
-/// Merges the nodes that sticking branches join into clusters, each at one value.
+/// Merges the nodes that sticking branches and equations join into clusters, each at one value.
 void ConvexNetwork::merge() {
   DisjointSets sets(u_.size());
   for (const Branch& b : branches_) {
     if (b.stuck) sets.join(b.a, b.b);
   }
+  join_by_equations(sets);
   std::vector<double> weight(u_.size(), -1);
   head_.assign(u_.size(), -1);
   for (std::size_t k = 0; k < u_.size(); ++k) {
@@ -338,6 +339,7 @@ bool ConvexNetwork::stick_where_idle() {
 ConvexNetwork::Outcome ConvexNetwork::solve() {
   find_restrained();
   choose_weak();
+  classify_equations();
   stick_at_first();
   for (Branch& b : branches_) b.w = nodal_difference(b);
   released_.clear();

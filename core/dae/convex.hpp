@@ -10,6 +10,7 @@
 namespace rheonet {
 
 struct Conductance;
+class DisjointSets;
 
 /// A network of set-valued monotone laws, and the values x of its nodes at which everything balances:
 ///
@@ -49,8 +50,6 @@ class ConvexNetwork {
   void tie(const std::array<int, 3>& nodes, const std::array<double, 3>& factors, double given);
   /// The force of each equation, in the order of `tie`, after `solve`.
   std::vector<double> forces_of_equations() const;
-  /// Equations whose nodes sticking branches hold, each within its cluster: their forces are open.
-  std::vector<std::size_t> locked_equations() const;
   /// A guess that only saves time: this branch, whose law jumps, slipped to this side before.
   void was_apart(int branch, int side) { branches_[at(branch)].before = side; }
 
@@ -103,6 +102,7 @@ class ConvexNetwork {
     std::array<double, 3> factor;
     double given;
     double force = 0;
+    bool equal = false, homogeneous = false;  ///< It permits equal values; values that meet it sum, times the factors, to 0.
   };
   /// Its value does not follow from the forces of branches alone.
   bool firm(std::size_t node) const { return fixed_[node] || inertia_[node] > 0 || tied_[node]; }
@@ -111,7 +111,11 @@ class ConvexNetwork {
   void find_restrained();
   std::vector<std::vector<double>> equations_of_columns(Eigen::VectorXd& left) const;
   bool step_within_equations(const std::vector<Conductance>& slopes, Eigen::VectorXd& step);
-  void share_with_locked_equations(const std::vector<int>& row, const Eigen::VectorXd& load, double roundoff);
+  std::vector<char> dependent_equations() const;
+  std::vector<std::size_t> open_equations() const;
+  void classify_equations();
+  void join_by_equations(DisjointSets& sets) const;
+  void share_with_open_equations(const std::vector<std::size_t>& open, const std::vector<int>& row, const Eigen::VectorXd& load, double roundoff);
   double torn(const Equation& equation) const;
   void part_torn_equations();
   void meet_equations();

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/base/disjoint_sets.hpp"
 #include "core/base/numerics.hpp"
 #include "core/dae/convex.hpp"
 #include "core/nonsmooth/conductances.hpp"
@@ -121,42 +122,59 @@ bool ConvexNetwork::step_within_equations(const std::vector<Conductance>& slopes
   return true;
 }
 
-std::vector<std::size_t> ConvexNetwork::locked_equations() const {
+/// Equations without factors, see `equations_of_columns`: their forces do not follow from the motion.
+std::vector<char> ConvexNetwork::dependent_equations() const {
+  Eigen::VectorXd left;
+  std::vector<char> result;
+  for (const std::vector<double>& row : equations_of_columns(left)) result.push_back(std::all_of(row.begin(), row.end(), [](double factor) { return factor == 0; }));
+  return result;
+}
+
+/// Equations whose forces are open: dependent ones, and all that equations and bonds join to them.
+std::vector<std::size_t> ConvexNetwork::open_equations() const {
+  DisjointSets sets(u_.size());
+  std::vector<int> place;  // of each equation: a node that is not prescribed, or any
+  for (const Equation& e : equations_) {
+    int first = -1;
+    for (const int node : e.node) {
+      if (fixed_[at(node)]) continue;
+      if (first >= 0) sets.join(first, node);
+      first = node;
+    }
+    place.push_back(first >= 0 ? first : e.node[0]);
+  }
+  for (const Branch& b : branches_) {
+    if (b.stuck && !fixed_[at(b.a)] && !fixed_[at(b.b)]) sets.join(b.a, b.b);
+  }
+  const std::vector<char> dependent = dependent_equations();
+  std::vector<char> open(u_.size(), 0);
+  for (std::size_t e = 0; e < equations_.size(); ++e) open[at(sets.find(place[e]))] |= dependent[e];
   std::vector<std::size_t> result;
   for (std::size_t e = 0; e < equations_.size(); ++e) {
-    const auto& [node, factor, given, force] = equations_[e];
-    bool locked = true;
-    for (std::size_t i = 0; i < node.size(); ++i) {
-      double sum = 0, size = 0;
-      for (std::size_t k = 0; k < node.size(); ++k) {
-        if (cluster_[at(node[k])] == cluster_[at(node[i])]) sum += factor[k];
-        size = std::max(size, std::abs(factor[k]));
-      }
-      locked = locked && (column_[at(cluster_[at(node[i])])] < 0 || std::abs(sum) <= numerics::equal_given_values * size);
-    }
-    if (locked) result.push_back(e);
+    if (open[at(sets.find(place[e]))]) result.push_back(e);
   }
   return result;
 }
 
-/// Forces of least norm within the bounds, of the bonds and of locked equations, which take any force. `row`: of each node, its place in
+/// Forces of least norm within the bounds, of the bonds and of open equations, which take any force. `row`: of each node, its place in
 /// `load`, or -1. Where nothing within the bounds balances the loads, the bonds that contradict them are beyond theirs: if these open, the
 /// nodes can move in a direction in which the loads outweigh all bounds.
-void ConvexNetwork::share_with_locked_equations(const std::vector<int>& row, const Eigen::VectorXd& load, double roundoff) {
+void ConvexNetwork::share_with_open_equations(const std::vector<std::size_t>& open, const std::vector<int>& row, const Eigen::VectorXd& load, double roundoff) {
   constexpr double unlimited = std::numeric_limits<double>::infinity();
-  const std::vector<std::size_t> locked = locked_equations();
   std::vector<std::size_t> bonds;
   for (std::size_t k = 0; k < branches_.size(); ++k) {
     if (branches_[k].stuck) bonds.push_back(k);
   }
   LeastNorm problem;
-  problem.balance.setZero(load.size(), static_cast<Eigen::Index>(bonds.size() + locked.size()));
+  const Eigen::Index balances = load.size(), forces = static_cast<Eigen::Index>(bonds.size() + open.size());
+  problem.balance.setZero(balances + columns_, forces);
   const auto act = [&](int node, Eigen::Index column, double factor) {
     if (row[at(node)] >= 0) problem.balance(row[at(node)], column) += factor;
   };
   // Counted from the least force within the bounds, which then contain 0.
   std::vector<double> least;
-  Eigen::VectorXd left = load;
+  Eigen::VectorXd left = Eigen::VectorXd::Zero(problem.balance.rows());
+  left.head(balances) = load;
   Eigen::Index column = 0;
   for (const std::size_t k : bonds) {
     const Branch& b = branches_[k];
@@ -167,8 +185,15 @@ void ConvexNetwork::share_with_locked_equations(const std::vector<int>& row, con
     problem.low.push_back(b.law.low - roundoff - least.back());
     problem.high.push_back(b.law.high + roundoff - least.back());
   }
-  for (const std::size_t e : locked) {
-    for (std::size_t i = 0; i < equations_[e].node.size(); ++i) act(equations_[e].node[i], column, equations_[e].factor[i]);
+  for (const std::size_t e : open) {
+    for (std::size_t i = 0; i < equations_[e].node.size(); ++i) {
+      const int node = equations_[e].node[i], moving = column_[at(cluster_[at(node)])];
+      act(node, column, equations_[e].factor[i]);
+      // On each cluster that moves, all of them together act as they do in the motion.
+      if (moving < 0) continue;
+      problem.balance(balances + moving, column) += equations_[e].factor[i];
+      left[balances + moving] += equations_[e].factor[i] * equations_[e].force;
+    }
     ++column;
     problem.low.push_back(-unlimited);
     problem.high.push_back(unlimited);
@@ -179,7 +204,46 @@ void ConvexNetwork::share_with_locked_equations(const std::vector<int>& row, con
   if (in_doubt_) return;
   for (const LeastNorm::Bound& bound : contradiction) beyond_.push_back({bound.share, static_cast<int>(bonds[bound.force]), bound.side});
   for (std::size_t i = 0; i < bonds.size(); ++i) bond_force_[bonds[i]] = least[i] + force[i];
-  for (std::size_t i = 0; i < locked.size(); ++i) equations_[locked[i]].force = force[bonds.size() + i];
+  for (std::size_t i = 0; i < open.size(); ++i) equations_[open[i]].force = force[bonds.size() + i];
+}
+
+/// Where two nodes of an equation are together, the third one is there too if the equation permits equal values, as it does where they stand still.
+void ConvexNetwork::join_by_equations(DisjointSets& sets) const {
+  std::vector<char> given(u_.size(), 0), still(given);  // of each set
+  for (std::size_t k = 0; k < u_.size(); ++k) {
+    const std::size_t set = at(sets.find(static_cast<int>(k)));
+    given[set] |= fixed_[k];
+    still[set] |= fixed_[k] && origin_[k] + given_[k] == 0;
+  }
+  for (bool again = true; again;) {
+    again = false;
+    for (const Equation& e : equations_) {
+      for (std::size_t i = 0; e.homogeneous && i < e.node.size(); ++i) {
+        const int last = sets.find(e.node[i]), one = sets.find(e.node[(i + 1) % 3]), other = sets.find(e.node[(i + 2) % 3]);
+        if (one != other || last == one || !(e.equal || still[at(one)]) || (given[at(last)] && given[at(one)])) continue;
+        sets.join(last, one);
+        given[at(one)] |= given[at(last)];
+        still[at(one)] |= still[at(last)];
+        again = true;
+      }
+    }
+  }
+}
+
+/// Which equations permit equal values, and which hold for the values as they do for the changes: see `join_by_equations`.
+void ConvexNetwork::classify_equations() {
+  for (Equation& e : equations_) {
+    double sum = 0, size = 0, left = e.given, magnitude = std::abs(left);
+    for (std::size_t i = 0; i < e.node.size(); ++i) {
+      const double value = e.factor[i] * origin_[at(e.node[i])];
+      sum += e.factor[i];
+      size += std::abs(e.factor[i]);
+      left += value;
+      magnitude += std::abs(value);
+    }
+    e.equal = std::abs(sum) <= numerics::equal_given_values * size;
+    e.homogeneous = std::abs(left) <= numerics::torn_velocities * magnitude;
+  }
 }
 
 /// By how much an equation does not hold [m/s]; 0 if that is round-off.
@@ -195,8 +259,9 @@ double ConvexNetwork::torn(const Equation& equation) const {
 /// Where sticking branches hold the nodes of an equation that does not hold, those at its nodes open.
 void ConvexNetwork::part_torn_equations() {
   bool any = false;
-  for (const std::size_t e : locked_equations()) {
-    if (torn(equations_[e]) == 0) continue;
+  const std::vector<char> dependent = dependent_equations();
+  for (std::size_t e = 0; e < equations_.size(); ++e) {
+    if (!dependent[e] || torn(equations_[e]) == 0) continue;
     for (Branch& b : branches_) {
       const auto beside = [&](int node) { return cluster_[at(node)] == cluster_[at(b.a)]; };
       if (!b.stuck || std::isinf(b.law.low) || std::isinf(b.law.high) || std::none_of(equations_[e].node.begin(), equations_[e].node.end(), beside)) continue;

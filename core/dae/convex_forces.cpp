@@ -22,9 +22,13 @@ void ConvexNetwork::find_bond_forces(double roundoff) {
     left[at(b.a)] += f;
     left[at(b.b)] -= f;
   }
-  for (const std::size_t e : locked_equations()) equations_[e].force = 0;
-  for (const Equation& e : equations_) {
-    for (std::size_t i = 0; i < e.node.size(); ++i) left[at(e.node[i])] += e.factor[i] * e.force;
+  const std::vector<std::size_t> open = equations_.empty() ? std::vector<std::size_t>{} : open_equations();
+  for (std::size_t e = 0, k = 0; e < equations_.size(); ++e) {
+    if (k < open.size() && open[k] == e) {
+      ++k;
+      continue;
+    }
+    for (std::size_t i = 0; i < 3; ++i) left[at(equations_[e].node[i])] += equations_[e].factor[i] * equations_[e].force;
   }
   std::vector<int> row(u_.size(), -1);
   int rows = 0;
@@ -38,7 +42,7 @@ void ConvexNetwork::find_bond_forces(double roundoff) {
   for (std::size_t k = 0; k < u_.size(); ++k) {
     if (row[k] >= 0) phi[row[k]] = -left[k];
   }
-  if (!equations_.empty()) return share_with_locked_equations(row, phi, roundoff);
+  if (!equations_.empty()) return share_with_open_equations(open, row, phi, roundoff);
   // Every cluster has its reference: nothing is left open.
   std::vector<Conductance> bonds;
   for (const Branch& b : branches_) {

@@ -114,6 +114,7 @@ class EventTransition {
   ModeSelection look_ahead(double t, double h, const Fired& fired, const State& state, const Modes& modes, const std::vector<double>& force,
                    const Nodal& now, const std::vector<double>& train_force);
   bool breaks_loose(const ModeSelection& selection) const;
+  bool at_loss(const ModeSelection& selection, std::size_t slider) const;
   bool stops_within(const ModeSelection& selection, const State& state) const;
   bool holds(const ModeSelection& selection, std::size_t slider) const;
   void hold_by_trains(DisjointSets& held) const;

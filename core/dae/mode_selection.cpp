@@ -158,10 +158,20 @@ bool EventTransition::breaks_loose(const ModeSelection& selection) const {
   for (std::size_t k = 0; k < selection.slider.size(); ++k) {
     const ConvexNetwork::Bounds bounds = selection.problem.bounds(selection.slider[k]);
     const int direction = selection.problem.direction(selection.slider[k]);
-    const bool within = selection.modes->slider[k] == Modes::stuck && bounds.low < 0 && bounds.high > 0;
+    const bool within = selection.modes->slider[k] == Modes::stuck && bounds.low < 0 && bounds.high > 0 && !at_loss(selection, k);
     if (direction != 0 && (within || (direction == -came_to_rest_[k] && !prescribed(network_.sliders[k].branch)))) return true;
   }
   return false;
+}
+
+/// Whether a slider stands for losses of a gear and is at a bound, as it is without a load on the gear. At the end of h its bounds follow from the load there.
+bool EventTransition::at_loss(const ModeSelection& selection, std::size_t slider) const {
+  const int train = network_.sliders[slider].train;
+  if (train < 0) return false;
+  double size = 0;
+  for (const NodeId node : network_.trains[at(train)].node) size = std::max(size, selection.now->magnitude[at(node)]);
+  const double force = (*selection.force)[slider];
+  return std::min(bound(slider, 1) - force, bound(slider, -1) + force) <= numerics::balance_roundoff * size;
 }
 
 /// Whether a slipping slider between nodes with masses stops during the time h, rather than at the event.

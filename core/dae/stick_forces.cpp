@@ -206,7 +206,7 @@ bool StickForces::lossy(const Shared& shared) const {
   return std::any_of(shared.sliders.begin(), shared.sliders.end(), [&](std::size_t k) { return network_.sliders[k].train >= 0; });
 }
 
-/// Forces of least norm among all that the losses hold. To each side the loss is the larger of two lines over the force of the train, one
+/// Forces of least norm among all that the losses hold, or that the least widening of all bounds lets them hold. To each side the loss is the larger of two lines over the force of the train, one
 /// for each node that may drive. With one line chosen for each loss and side the problem is convex, and the least norm of all choices
 /// is that of the whole. False if no choice holds the load, there are too many, or the bearings of a self-locking gear help the load, so that its line falls
 /// below 0. `found`: the forces of the trains that sliders do not lock.
@@ -229,8 +229,7 @@ bool StickForces::share_within_losses(Shared& shared, const std::vector<double>&
   if (lossy.empty()) return shared.solve();
   LeastNorm& problem = shared.with_trains;
   std::vector<double> force;
-  std::vector<LeastNorm::Bound> contradiction;
-  double least = std::numeric_limits<double>::infinity();
+  double least = std::numeric_limits<double>::infinity(), narrowest = least;
   for (std::size_t choice = 0; choice < choices; ++choice) {
     problem.following.clear();
     std::size_t left = choice;
@@ -240,15 +239,17 @@ bool StickForces::share_within_losses(Shared& shared, const std::vector<double>&
       shared.bound(l.slider, std::min(lines.down.offset, 0.0), std::max(lines.up.offset, 0.0));
       problem.following.push_back({l.slider, l.train_force, 1 - lines.down.factor, lines.up.factor - 1});
     }
-    if (!problem.solve_within(shared.load, force, contradiction) || !contradiction.empty()) continue;
-    double norm = 0;
+    double wider = 0, norm = 0;
+    if (!problem.solve_widened(shared.load, force, wider)) continue;
     for (const double f : force) norm += f * f;
     // Where a line is below 0, and 0 was taken instead, the loss may be smaller.
     const double roundoff = numerics::balance_roundoff * largest(force);
     const bool holds = std::all_of(lossy.begin(), lossy.end(), [&](const LossySlider& l) {
-      return std::abs(force[l.slider]) <= l.loss->lost(force[l.slider] < 0 ? -1 : 1, force[l.train_force]) + roundoff;
+      return std::abs(force[l.slider]) <= l.loss->lost(force[l.slider] < 0 ? -1 : 1, force[l.train_force]) + wider + roundoff;
     });
-    if (!holds || norm >= least) continue;
+    // Beyond the bounds, choices that differ by round-off alone count as equal.
+    if (!holds || wider > narrowest + roundoff || (wider >= narrowest - roundoff && norm >= least)) continue;
+    narrowest = std::min(narrowest, wider);
     least = norm;
     shared.force = force;
   }

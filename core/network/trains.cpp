@@ -75,9 +75,10 @@ class Trains {
     }
   }
 
-  /// Brings the equations into reduced row echelon form. The lightest node of each is its pivot.
+  /// Brings the equations into reduced row echelon form. The lightest node of each is its pivot. The forces of the trains are eliminated with the
+  /// equations: only at a pivot with a force left do the balances of the pivots determine the forces of all trains.
   void eliminate() {
-    std::vector<Row> rows;
+    std::vector<Row> rows, columns;  // factors of the velocities, and forces
     for (std::size_t t = 0; t < network_.trains.size(); ++t) {
       const Network::Train& train = network_.trains[t];
       Row row, forces;
@@ -90,14 +91,16 @@ class Trains {
         }
         largest = std::max(largest, std::abs(train.factor[k]));
       }
-      for (std::size_t r = 0; r < rows.size(); ++r) subtract(rows[r], s_.tied[r].pivot, row);
+      for (std::size_t r = 0; r < rows.size(); ++r) {
+        subtract(rows[r], s_.tied[r].pivot, row);
+        subtract(columns[r], s_.tied[r].pivot, forces);
+      }
       NodeId pivot = -1;
       double least = 0;
       for (const auto& [node, factor] : row) {
         if (known(node) || std::abs(factor) <= numerics::equal_given_values * largest) continue;
         // With an efficiency of 0 the first node does not feel the force of the train.
-        const auto own = forces.find(node);
-        const double force = own == forces.end() ? factor : own->second;
+        const double force = forces[node];
         if (std::abs(force) <= numerics::equal_given_values * largest) continue;
         const double weight = mass(node) / std::abs(factor * force);
         if (pivot >= 0 && weight >= least) continue;
@@ -108,11 +111,13 @@ class Trains {
         if (all_slip_) refuse_dependent(train);
         continue;
       }
-      const double divisor = row[pivot];
-      for (auto& [node, factor] : row) factor = std::abs(factor) <= numerics::equal_given_values * largest ? 0 : factor / divisor;
-      std::erase_if(row, [](const auto& term) { return term.second == 0; });
-      for (Row& other : rows) subtract(row, pivot, other);
-      rows.push_back(std::move(row));
+      for (const auto& [own, others] : {std::pair(&row, &rows), std::pair(&forces, &columns)}) {
+        const double divisor = (*own)[pivot];
+        for (auto& [node, factor] : *own) factor = std::abs(factor) <= numerics::equal_given_values * largest ? 0 : factor / divisor;
+        std::erase_if(*own, [](const auto& term) { return term.second == 0; });
+        for (Row& other : *others) subtract(*own, pivot, other);
+        others->push_back(std::move(*own));
+      }
       s_.tied.push_back({pivot, {}, {}, static_cast<int>(t)});
     }
     for (std::size_t r = 0; r < rows.size(); ++r) {

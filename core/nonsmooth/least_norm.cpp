@@ -25,15 +25,18 @@ struct WideBound {
   double share = 1;  ///< in a contradiction
 };
 
-/// The method, for bounds that are `1 + share` times as far as those of the problem.
+/// By how much the bounds of a contradiction are too narrow: a share of those of the problem, or a force [N].
+struct Excess { double share = 0, force = 0; };
+
+/// The method, for bounds that are `1 + share` times as far as those of the problem, and farther by `wider`.
 class DualActiveSet {
  public:
-  DualActiveSet(const LeastNorm& problem, const Eigen::VectorXd& load, double share) : problem_(problem), share_(share) {
+  DualActiveSet(const LeastNorm& problem, const Eigen::VectorXd& load, double share, double wider = 0) : problem_(problem), share_(share), wider_(wider) {
     const std::size_t forces = problem.low.size();
     for (std::size_t k = 0; k < forces; ++k) {
       const auto force = static_cast<Eigen::Index>(k);
-      bounds_.push_back({force, 1, -(1 + share) * problem.low[k]});
-      bounds_.push_back({force, -1, (1 + share) * problem.high[k]});
+      bounds_.push_back({force, 1, wider - (1 + share) * problem.low[k]});
+      bounds_.push_back({force, -1, wider + (1 + share) * problem.high[k]});
     }
     for (const auto& [force, other, low_slope, high_slope] : problem.following) {
       for (const std::size_t side : {0, 1}) {
@@ -54,9 +57,8 @@ class DualActiveSet {
     roundoff_ = numerics::equation_roundoff * without_bounds_.lpNorm<Eigen::Infinity>();
   }
 
-  /// Meets all bounds. False if that is impossible: `cut` are the bounds that contradict the load, too narrow by the share `excess` of
-  /// those of the problem.
-  bool solve(Eigen::VectorXd& x, std::vector<WideBound>& cut, double& excess) {
+  /// Meets all bounds. False if that is impossible: `cut` are the bounds that contradict the load, too narrow by `excess` beside those of the problem.
+  bool solve(Eigen::VectorXd& x, std::vector<WideBound>& cut, Excess& excess) {
     x = without_bounds_;
     const std::size_t most = numerics::least_rounds + numerics::rounds_a_branch * problem_.low.size();
     for (std::size_t round = 0; round < most; ++round) {
@@ -137,22 +139,24 @@ class DualActiveSet {
   }
 
   /// The bounds that hold against the load: the normal of `bound` is that share of those of the equations and of active bounds.
-  std::vector<WideBound> contradiction(const WideBound& bound, const Eigen::VectorXd& share, double& excess) const {
+  std::vector<WideBound> contradiction(const WideBound& bound, const Eigen::VectorXd& share, Excess& excess) const {
     std::vector<WideBound> cut{bound};
-    double against = bound.width;
+    double against = bound.width, shares = 1;
     for (std::size_t k = 0; k < active_.size(); ++k) {
       const double by = -share[rows_.cols() + static_cast<Eigen::Index>(k)];
       if (by <= numerics::equal_values) continue;
       cut.push_back(active_[k]);
       cut.back().share = by;
       against += by * active_[k].width;
+      shares += by;
     }
-    excess = (1 + share_) * (-share.head(rows_.cols()).dot(rows_.transpose() * without_bounds_) / against) - 1;
+    const double load = -share.head(rows_.cols()).dot(rows_.transpose() * without_bounds_);
+    excess = {(1 + share_) * (load / against) - 1, wider_ + (load - against) / shares};
     return cut;
   }
 
   const LeastNorm& problem_;
-  double share_;
+  double share_, wider_;
   Eigen::MatrixXd rows_;            ///< orthonormal combinations of the balances, one a column
   Eigen::VectorXd without_bounds_;  ///< forces of least norm
   double roundoff_ = 0;             ///< of forces: a bound of 0 cannot be met better
@@ -173,12 +177,30 @@ bool LeastNorm::solve_within(const std::vector<double>& load, std::vector<double
   const Eigen::VectorXd loads = Eigen::Map<const Eigen::VectorXd>(load.data(), static_cast<Eigen::Index>(load.size()));
   Eigen::VectorXd x;
   std::vector<WideBound> cut;
-  double excess = 0;
+  Excess excess;
   const bool within = DualActiveSet(*this, loads, 0).solve(x, cut, excess);
   contradiction.clear();
   for (const WideBound& b : cut) contradiction.push_back({static_cast<std::size_t>(b.force), b.side > 0 ? -1 : 1, b.share});
   force.assign(x.begin(), x.end());
   return within ? balances(*this, loads, x) : !cut.empty();
+}
+
+bool LeastNorm::solve_widened(const std::vector<double>& load, std::vector<double>& force, double& wider) const {
+  const Eigen::VectorXd loads = Eigen::Map<const Eigen::VectorXd>(load.data(), static_cast<Eigen::Index>(load.size()));
+  Eigen::VectorXd x;
+  wider = 0;
+  for (std::size_t round = 0; round < numerics::least_rounds; ++round) {
+    std::vector<WideBound> cut;
+    Excess excess;
+    if (DualActiveSet(*this, loads, 0, wider).solve(x, cut, excess)) {
+      force.assign(x.begin(), x.end());
+      return balances(*this, loads, x);
+    }
+    if (cut.empty() || !std::isfinite(excess.force)) return false;
+    // Each contradiction shows by how much all bounds must at least be wider: the last one decides (Dinkelbach 1967). One that comes again does so by round-off.
+    wider = std::max(excess.force, wider + numerics::equation_roundoff * loads.lpNorm<Eigen::Infinity>());
+  }
+  return false;
 }
 
 bool LeastNorm::solve(const std::vector<double>& load, std::vector<double>& force) const {
@@ -200,18 +222,18 @@ bool LeastNorm::solve(const std::vector<double>& load, std::vector<double>& forc
     double share = 0;
     while (true) {
       std::vector<WideBound> cut;
-      double excess = 0;
+      Excess excess;
       if (DualActiveSet(rest, left, share).solve(found, cut, excess)) break;
       if (cut.empty()) return false;
-      if (!std::isfinite(excess)) {
+      if (!std::isfinite(excess.share)) {
         // No share of bounds that are all 0 holds anything: they take the load as bounds of equal width would.
         const double width = numerics::equation_roundoff * loads.lpNorm<Eigen::Infinity>();
         if (width == 0 || std::none_of(cut.begin(), cut.end(), [](const WideBound& b) { return b.width == 0; })) return false;
         for (const WideBound& b : cut) (b.side > 0 ? rest.low : rest.high)[static_cast<std::size_t>(b.force)] = -b.side * width;
         continue;
       }
-      if (excess <= share + numerics::balance_roundoff * (1 + share)) break;  // the same contradiction, but for its round-off
-      share = excess;
+      if (excess.share <= share + numerics::balance_roundoff * (1 + share)) break;  // the same contradiction, but for its round-off
+      share = excess.share;
       worst = std::move(cut);
     }
     if (worst.empty()) {

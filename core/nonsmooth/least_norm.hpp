@@ -22,7 +22,7 @@ struct LeastNorm {
     std::size_t force, other;
     double low_slope, high_slope;
   };
-  std::vector<Following> following;  ///< for `solve_within` alone; empty for `solve`
+  std::vector<Following> following;  ///< empty for `solve`
 
   /// `load`: of each row [N], finite. Writes the forces; false if round-off prevents an answer.
   bool solve(const std::vector<double>& load, std::vector<double>& force) const;
@@ -35,6 +35,8 @@ struct LeastNorm {
   };
   /// The same, but where nothing within the bounds balances the loads it writes the bounds that contradict them, and no forces.
   bool solve_within(const std::vector<double>& load, std::vector<double>& force, std::vector<Bound>& contradiction) const;
+  /// The same, but with all bounds wider by one force, the least one with which something balances the loads [N].
+  bool solve_widened(const std::vector<double>& load, std::vector<double>& force, double& wider) const;
 };
 
 }  // namespace rheonet

@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <string>
@@ -37,6 +38,19 @@ worm = { type = "gear", between = ["a", "b"], ratio = -0.9, efficiency = [0.4098
 free = { type = "freewheel", between = ["a", "ground"] }
 shaft = { type = "spring", between = ["b", "ground"], stiffness = 34 }
 push = { type = "torque", at = "a", torque = { triangle = 3, frequency = 4 } }
+)";
+
+/// Gears that all slip, or all hold: `{}` is the torque.
+const char* const all_or_none = R"(
+J0 = {{ type = "inertia", at = "a", inertia = 1 }}
+J1 = {{ type = "inertia", at = "b", inertia = 1 }}
+J2 = {{ type = "inertia", at = "c", inertia = 1 }}
+J3 = {{ type = "inertia", at = "d", inertia = 1 }}
+gear1 = {{ type = "gear", between = ["a", "b"], ratio = 1, efficiency = 0.5 }}
+gear2 = {{ type = "gear", between = ["b", "d"], ratio = 1, efficiency = 0.5 }}
+gear3 = {{ type = "gear", between = ["a", "c"], ratio = 1, bearing = 0.3 }}
+brake = {{ type = "slider", between = ["d", "ground"], coulomb = 0.6 }}
+push = {{ type = "torque", at = "b", torque = {} }}
 )";
 
 const std::vector<Locked> scenes{
@@ -131,6 +145,26 @@ worm = { type = "gear", between = ["b", "c"], ratio = -2, efficiency = [0.35, -0
 free = { type = "freewheel", between = ["a", "ground"] }
 push = { type = "torque", at = "a", torque = { sine = 3, frequency = 1 } }
 )"},
+    {"a gear that begins to slip into one that carries nothing", R"(
+J0 = { type = "inertia", at = "a", inertia = 2 }
+J1 = { type = "inertia", at = "b", inertia = 1 }
+J2 = { type = "inertia", at = "c", inertia = 1 }
+J3 = { type = "inertia", at = "d", inertia = 1 }
+gear1 = { type = "gear", between = ["a", "b"], ratio = 1, efficiency = 0.7 }
+gear2 = { type = "gear", between = ["a", "c"], ratio = 3, efficiency = [0.75, 0.05] }
+gear3 = { type = "gear", between = ["c", "d"], ratio = 3, efficiency = 0.7 }
+push = { type = "torque", at = "c", torque = { sine = 2, frequency = 1 } }
+pull = { type = "torque", at = "d", torque = -2 }
+)"},
+    {"a worm gear that nothing drives from behind, and a gear behind it", R"(
+J0 = { type = "inertia", at = "a", inertia = 1 }
+J1 = { type = "inertia", at = "b", inertia = 1 }
+J2 = { type = "inertia", at = "c", inertia = 1 }
+worm = { type = "gear", between = ["a", "b"], ratio = -2, efficiency = [0.6057, 0] }
+gear = { type = "gear", between = ["c", "b"], ratio = -1.1319, efficiency = [0.8935, 0.2479], bearing = 0.2309 }
+shake = { type = "torque", at = "b", torque = { triangle = 2, frequency = 2 } }
+push = { type = "torque", at = "a", torque = { sine = 3, frequency = 3, offset = -1 } }
+)"},
 };
 
 }  // namespace
@@ -150,6 +184,18 @@ TEST_CASE("a gear of which the load can take all takes none of it where a worm g
   for (std::size_t k = 0; k < rows.time().size(); ++k) {
     CHECK(rows["b.velocity"][k] == 0);
     CHECK_LE(std::abs(rows["gear.force"][k]), 1e-12);
+  }
+}
+
+TEST_CASE("gears and a brake slip together beyond the sum of what they hold") {
+  // Of the torque m at b, 1.8 N m hold brake and bearing behind efficiencies of 0.5. The rest moves 7 kg m^2.
+  for (const double torque : {-3.0, -1.98, -1.81, -1.78, -0.98, 0.92, 1.72, 1.79, 1.92, 2.62}) {
+    CAPTURE(torque);
+    Summary summary;
+    const RunTable rows = simulate(scene_of("domain = \"rotation\"\n[elements]" + fmt::format(fmt::runtime(all_or_none), torque) + "[simulate]\nstop = 1\noutput = { points = 11 }\n"), &summary);
+    const double slips = std::copysign(std::max(0.0, std::abs(torque) - 1.8) / 7, torque);
+    for (const char* node : {"a", "b", "c", "d"}) CHECK(rows[std::string(node) + ".velocity"].back() == doctest::Approx(slips).epsilon(1e-12));
+    CHECK_LE(std::abs(summary.missing), 1e-11 * summary.largest);
   }
 }
 
