@@ -94,14 +94,17 @@ TEST_CASE("texts that wait for the first one take no memory") {
   const long end = tool::do_in_order({.first = 0,
                                       .end = tasks,
                                       .jobs = 3,
+                                      .most_at_once = 16,
                                       .make =
-                                          [&](long task, Spool& text, const std::atomic<bool>&) {
+                                          [&](long first, long behind, Spool& text, const std::atomic<bool>&) {
                                             // The first task ends last, and every thousandth one late.
-                                            while (task == 0 && made < tasks - 1) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-                                            if (task % 1000 == 7) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-                                            if (task == 0) most = allocated() - before;
-                                            text.append(line(task, size));
-                                            ++made;
+                                            while (first == 0 && made < tasks - behind) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+                                            if (first == 0) most = allocated() - before;
+                                            for (long task = first; task < behind; ++task) {
+                                              if (task % 1000 == 7) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+                                              text.append(line(task, size));
+                                            }
+                                            made += behind - first;
                                             return true;
                                           },
                                       .take =
@@ -123,8 +126,8 @@ TEST_CASE("an error where the texts are taken ends all tasks") {
                        .end = 1'000'000'000,
                        .jobs = 2,
                        .make =
-                           [](long task, Spool& text, const std::atomic<bool>&) {
-                             text.append(line(task, 3));
+                           [](long first, long, Spool& text, const std::atomic<bool>&) {
+                             text.append(line(first, 3));
                              return true;
                            },
                        .take = [](const std::string&) -> bool { throw std::runtime_error("full"); },
