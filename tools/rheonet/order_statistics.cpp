@@ -30,8 +30,7 @@ void OrderStatistics::add(double value) {
   ++count_;
 }
 
-template <class Take>
-void OrderStatistics::for_each(const Take& take) const {
+void OrderStatistics::for_each(const std::function<void(double)>& take) const {
   std::vector<double> values(block);
   for (std::int64_t place = 0; place < written_; place += static_cast<std::int64_t>(block * sizeof(double))) {
     file_.read(values.data(), block * sizeof(double), place);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "core/result/temporary_file.hpp"
@@ -18,8 +19,7 @@ class OrderStatistics {
   std::vector<double> of_ranks(const std::vector<long>& ranks) const;
 
  private:
-  template <class Take>
-  void for_each(const Take& take) const;
+  void for_each(const std::function<void(double)>& take) const;
 
   TemporaryFile file_{"the values for the quantiles"};
   std::int64_t written_ = 0;   ///< Size of the file [bytes].
