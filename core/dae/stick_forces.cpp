@@ -264,7 +264,7 @@ bool StickForces::share_within_losses(Shared& shared, const std::vector<double>&
   return true;
 }
 
-/// Forces within bounds that follow from the forces of the trains. Where they are not shared within losses, as just beyond the bounds, the forces of
+/// Forces within bounds that follow from the forces of the trains. Where the losses have too many choices of lines, the forces of
 /// trains are tried until their bounds fit. `found`: the forces of the trains that sliders do not lock.
 bool StickForces::solve_with_losses(double t, Shared& shared, std::vector<double> found) const {
   if (share_within_losses(shared, found)) return true;
