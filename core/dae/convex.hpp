@@ -50,6 +50,8 @@ class ConvexNetwork {
   void tie(const std::array<int, 3>& nodes, const std::array<double, 3>& factors, double given);
   /// The force of each equation, in the order of `tie`, after `solve`.
   std::vector<double> forces_of_equations() const;
+  /// The largest of all loads and forces, those of sticking branches left out.
+  double largest_force() const;
   /// A guess that only saves time: this branch, whose law jumps, slipped to this side before.
   void was_apart(int branch, int side) { branches_[at(branch)].before = side; }
 

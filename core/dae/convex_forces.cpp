@@ -60,12 +60,16 @@ void ConvexNetwork::find_bond_forces(double roundoff) {
   }
 }
 
-/// True if the branches that stick can hold their forces, to the round-off of the largest of all forces.
-bool ConvexNetwork::bonds_hold() {
+double ConvexNetwork::largest_force() const {
   double largest = 0;
   for (std::size_t k = 0; k < u_.size(); ++k) largest = std::max({largest, std::abs(applied_[k]), std::abs(inertia_[k] * u_[k])});
   for (const Branch& b : branches_) largest = std::max(largest, b.stuck ? 0 : std::abs(force(b, b.w, b.side)));
-  find_bond_forces(numerics::balance_roundoff * largest);
+  return largest;
+}
+
+/// True if the branches that stick can hold their forces, to the round-off of the largest of all forces.
+bool ConvexNetwork::bonds_hold() {
+  find_bond_forces(numerics::balance_roundoff * largest_force());
   return beyond_.empty() && !in_doubt_;
 }
 

@@ -91,7 +91,7 @@ EventTransition::ModeSelection EventTransition::look_ahead(double t, double h, c
     while (!trials.endless()) {
       ModeSelection selection = look_ahead(t, h, fired, state, modes, force, now, trials.trial());
       selection.train_force = forces_of_trains(selection);
-      if (trials.agree(selection.train_force)) return selection;
+      if (trials.agree(selection.train_force, selection.problem.largest_force())) return selection;
     }
     return {};
   };

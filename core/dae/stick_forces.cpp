@@ -62,13 +62,21 @@ struct LossySlider {
   std::vector<LossLines> lines;
 };
 
+/// The lines of which the loss to this side is the largest. Where both are below 0, as the bearings of a self-locking gear may help its load, nothing is lost.
+std::vector<Loss::Line> lines_of(const Loss& loss, int side) {
+  std::vector<Loss::Line> result{loss.line(side, false), loss.line(side, true)};
+  const double steeper = result[0].factor - result[1].factor, meet = steeper == 0 ? 0 : (result[1].offset - result[0].offset) / steeper;
+  if (side * (result[0].at(meet) - meet) < 0) result.push_back({1, 0});
+  return result;
+}
+
 /// Without bearings all lines meet in 0: one node drives to one side, the other one to the other.
 std::vector<LossLines> lines_of(const Loss& loss) {
+  const std::vector<Loss::Line> up = lines_of(loss, 1), down = lines_of(loss, -1);
+  if (loss.bearing_a == 0 && loss.bearing_b == 0) return {{up[0], down[1]}, {up[1], down[0]}};
   std::vector<LossLines> result;
-  for (const bool up : {false, true}) {
-    for (const bool down : {false, true}) {
-      if (up != down || loss.bearing_a != 0 || loss.bearing_b != 0) result.push_back({loss.line(1, up), loss.line(-1, down)});
-    }
+  for (const Loss::Line& one : up) {
+    for (const Loss::Line& other : down) result.push_back({one, other});
   }
   return result;
 }
@@ -208,8 +216,7 @@ bool StickForces::lossy(const Shared& shared) const {
 
 /// Forces of least norm among all that the losses hold, or that the least widening of all bounds lets them hold. To each side the loss is the larger of two lines over the force of the train, one
 /// for each node that may drive. With one line chosen for each loss and side the problem is convex, and the least norm of all choices
-/// is that of the whole. False if no choice holds the load, there are too many, or the bearings of a self-locking gear help the load, so that its line falls
-/// below 0. `found`: the forces of the trains that sliders do not lock.
+/// is that of the whole. False if there are too many choices. `found`: the forces of the trains that sliders do not lock.
 bool StickForces::share_within_losses(Shared& shared, const std::vector<double>& found) const {
   std::vector<LossySlider> lossy;
   std::size_t choices = 1;
@@ -236,19 +243,15 @@ bool StickForces::share_within_losses(Shared& shared, const std::vector<double>&
     for (const LossySlider& l : lossy) {
       const LossLines& lines = l.lines[left % l.lines.size()];
       left /= l.lines.size();
-      shared.bound(l.slider, std::min(lines.down.offset, 0.0), std::max(lines.up.offset, 0.0));
+      shared.bound(l.slider, lines.down.offset, lines.up.offset);
       problem.following.push_back({l.slider, l.train_force, 1 - lines.down.factor, lines.up.factor - 1});
     }
     double wider = 0, norm = 0;
     if (!problem.solve_widened(shared.load, force, wider)) continue;
     for (const double f : force) norm += f * f;
-    // Where a line is below 0, and 0 was taken instead, the loss may be smaller.
-    const double roundoff = numerics::balance_roundoff * largest(force);
-    const bool holds = std::all_of(lossy.begin(), lossy.end(), [&](const LossySlider& l) {
-      return std::abs(force[l.slider]) <= l.loss->lost(force[l.slider] < 0 ? -1 : 1, force[l.train_force]) + wider + roundoff;
-    });
     // Beyond the bounds, choices that differ by round-off alone count as equal.
-    if (!holds || wider > narrowest + roundoff || (wider >= narrowest - roundoff && norm >= least)) continue;
+    const double roundoff = numerics::balance_roundoff * largest(force);
+    if (wider > narrowest + roundoff || (wider >= narrowest - roundoff && norm >= least)) continue;
     narrowest = std::min(narrowest, wider);
     least = norm;
     shared.force = force;
@@ -261,7 +264,7 @@ bool StickForces::share_within_losses(Shared& shared, const std::vector<double>&
   return true;
 }
 
-/// Forces within bounds that follow from the forces of the trains. Where they are not shared within losses, as just beyond the bounds, the forces of
+/// Forces within bounds that follow from the forces of the trains. Where the losses have too many choices of lines, the forces of
 /// trains are tried until their bounds fit. `found`: the forces of the trains that sliders do not lock.
 bool StickForces::solve_with_losses(double t, Shared& shared, std::vector<double> found) const {
   if (share_within_losses(shared, found)) return true;

@@ -13,9 +13,9 @@ TrainForceTrials::TrainForceTrials(const Network& network, const Inputs& inputs,
     : network_(&network), inputs_(&inputs), forces_(forces), trial_(Eigen::Map<const Eigen::VectorXd>(first.data(), static_cast<Eigen::Index>(first.size()))),
       points_(1 + static_cast<std::size_t>(std::count_if(network.trains.begin(), network.trains.end(), [](const Network::Train& train) { return train.loss.has_value(); }))) {}
 
-bool TrainForceTrials::agree(const std::vector<double>& found) {
+bool TrainForceTrials::agree(const std::vector<double>& found, double forces) {
   Eigen::VectorXd miss = Eigen::VectorXd::Zero(trial_.size());
-  double size = forces_;
+  double size = std::max(forces_, forces);
   for (Eigen::Index k = 0; k < trial_.size(); ++k) {
     if (!network_->trains[static_cast<std::size_t>(k)].loss) continue;
     const Loss& loss = inputs_->loss(static_cast<std::size_t>(k));

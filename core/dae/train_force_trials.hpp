@@ -24,8 +24,8 @@ class TrainForceTrials {
 
   /// The trial forces of all trains [N].
   std::vector<double> trial() const { return {trial_.begin(), trial_.end()}; }
-  /// Takes the forces that a balance with this trial has. True if both agree to round-off; otherwise `trial` is the next one.
-  bool agree(const std::vector<double>& found);
+  /// Takes the forces that a balance with this trial has, `forces` the size of all forces there [N]. True if both agree to round-off; otherwise `trial` is the next one.
+  bool agree(const std::vector<double>& found, double forces = 0);
   /// True after so many trials that the forces will not agree.
   bool endless() const;
 

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "core/base/format_list.hpp"
 #include "core/network/adjacent_elements.hpp"
 
@@ -51,6 +53,16 @@ void report_losses(const Network& network, const std::string& what) {
       "{} no motion was found in which the losses of {} fit the forces there: a self-locking gear may jam where the inertia in front of it is "
       "small beside that behind it, divided by the square of its ratio; give its first node more inertia",
       what, format_list(names)));
+}
+
+bool may_jam(const Network& network, const std::vector<int>& elements) {
+  bool locks = false;
+  for (const int element : elements) {
+    const auto train = std::find_if(network.trains.begin(), network.trains.end(), [&](const Network::Train& one) { return one.element == element; });
+    if (train == network.trains.end() || !train->loss) return false;
+    locks = locks || train->loss->efficiency_b <= 0;
+  }
+  return locks;
 }
 
 }  // namespace rheonet

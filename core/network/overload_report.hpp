@@ -18,4 +18,8 @@ namespace rheonet {
 /// Throws SimulationError: no forces of the transmissions were found that fit the losses that they cause. `what`: as above.
 [[noreturn]] void report_losses(const Network& network, const std::string& what);
 
+/// Whether all these elements, which switch over and over, are gears with losses of which one locks itself. Where its motion reverses the force in front of it,
+/// and no inertia there gives the force that the losses ask for, each end in turn seems to drive.
+bool may_jam(const Network& network, const std::vector<int>& elements);
+
 }  // namespace rheonet

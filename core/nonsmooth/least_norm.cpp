@@ -16,7 +16,7 @@ namespace {
 
 constexpr double none = std::numeric_limits<double>::infinity();
 
-/// A bound side x[force] + slope x[other] >= -width, with width >= 0.
+/// A bound side x[force] + slope x[other] >= -width.
 struct WideBound {
   Eigen::Index force = 0;
   double side = 0, width = 0;
@@ -123,7 +123,7 @@ class DualActiveSet {
   bool most_violated(const Eigen::VectorXd& x, WideBound& worst) const {
     double least = 0;
     for (const WideBound& b : bounds_) {
-      const double over = slack(b, x) + numerics::equation_roundoff * b.width + (1 + std::abs(b.slope)) * roundoff_;
+      const double over = slack(b, x) + numerics::equation_roundoff * std::abs(b.width) + (1 + std::abs(b.slope)) * roundoff_;
       if (over >= least) continue;
       least = over;
       worst = b;

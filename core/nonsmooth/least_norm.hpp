@@ -16,7 +16,7 @@ namespace rheonet {
 /// Dense, for a few forces whose balances have any coefficients. Where they are the branches of a graph, see BoxedForces.
 struct LeastNorm {
   Eigen::MatrixXd balance;        ///< B: a row a node, of full rank
-  std::vector<double> low, high;  ///< of each force [N]; low <= 0 <= high
+  std::vector<double> low, high;  ///< of each force [N]; low <= 0 <= high but for forces that follow others
   /// The bounds of `force` follow another force x: they are low - low_slope x and high + high_slope x.
   struct Following {
     std::size_t force, other;

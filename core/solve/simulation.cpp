@@ -14,6 +14,7 @@
 #include "core/dae/prescribed_reversals.hpp"
 #include "core/dae/start.hpp"
 #include "core/dae/steady_state.hpp"
+#include "core/network/overload_report.hpp"
 #include "core/solve/chatter_detection.hpp"
 #include "core/solve/event_processing.hpp"
 #include "core/solve/failure_report.hpp"
@@ -325,6 +326,7 @@ class Run {
       const bool hops = impact_ == t && t - hopped_ > time_roundoff(t);
       if (impact_ == t) hopped_ = t;
       if (chatter_.endless(t, fired_, settings_.stop - t) && (impact_ == t || chatter_.endless_time() * rate_at(t) < numerics::endless_time)) {
+        if (may_jam(network_, fired_)) report_losses(network_, at_time(*network_.scene, t));
         throw SimulationError(network_.spot_of(fired_.front()), at_time(*network_.scene, t) + " " + chatter_.describe_endless(network_, impact_ == t));
       }
       if (!hops && gets_nowhere(t, fired_)) report_chatter(t);
@@ -373,6 +375,7 @@ class Run {
 
   [[noreturn]] void report_chatter(double t) const {
     const std::vector<int> busy = chatter_.busiest();
+    if (may_jam(network_, busy)) report_losses(network_, at_time(*network_.scene, t));
     const auto is_element = [&](int cause) { return cause != solver(); };
     const auto first = std::find_if(busy.begin(), busy.end(), is_element);
     throw SimulationError(network_.spot_of(first == busy.end() ? 0 : *first), at_time(*network_.scene, t) + " " + chatter_.describe(network_, t));
