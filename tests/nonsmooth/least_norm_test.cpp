@@ -176,6 +176,36 @@ std::optional<Eigen::VectorXd> by_all_sets(const Problem& p) {
 
 }  // namespace
 
+TEST_CASE("least norm: where nothing within the bounds balances the load, all of them are wider by the least force with which something does") {
+  int beyond = 0;
+  for (const bool whole : {false, true}) {
+    std::mt19937 random(whole ? 17 : 19);
+    for (int n = 0; n < 2000; ++n) {
+      CAPTURE(whole);
+      CAPTURE(n);
+      const Problem p = random_problem(random, whole);
+      const std::vector<double> load(p.load.begin(), p.load.end());
+      std::vector<double> force, same;
+      double wider = -1;
+      REQUIRE(p.problem.solve_widened(load, force, wider));
+      const auto within = [&](double by) {
+        LeastNorm problem = p.problem;
+        for (double& low : problem.low) low -= by;
+        for (double& high : problem.high) high += by;
+        std::vector<LeastNorm::Bound> contradiction;
+        REQUIRE(problem.solve_within(load, same, contradiction));
+        return contradiction.empty();
+      };
+      CHECK(within(wider * (1 + 1e-11)));
+      for (std::size_t k = 0; k < force.size(); ++k) CHECK(std::abs(force[k] - same[k]) < 1e-6);
+      if (wider == 0) continue;
+      ++beyond;
+      CHECK_FALSE(within(wider * (1 - 1e-6)));
+    }
+  }
+  CHECK(beyond > 500);
+}
+
 TEST_CASE("least norm: random balances, beside the answer among all guesses and the largest share of the load") {
   int within = 0, beyond = 0;
   for (const bool whole : {false, true}) {
