@@ -213,7 +213,7 @@ TEST_CASE("a gear of which the load can take all takes none of it where a worm g
 }
 
 TEST_CASE("gears and a brake slip together beyond the sum of what they hold") {
-  // Of the torque m at b, 1.8 N m hold brake and bearing behind efficiencies of 0.5. The rest moves 7 kg m^2.
+  // Brake and bearing hold 1.8 N m of the torque at b, behind efficiencies of 0.5. The rest accelerates 7 kg m^2.
   for (const double torque : {-3.0, -1.98, -1.81, -1.78, -0.98, 0.92, 1.72, 1.79, 1.92, 2.62}) {
     CAPTURE(torque);
     Summary summary;

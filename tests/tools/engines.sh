@@ -76,7 +76,7 @@ if [ "$engine" = parallel ]; then
     bash script.sh -j 2 2>log || { cat log; exit 1; }
     check_shards "$shards" "$shards"
   done
-  # Of a killed engine the other tasks live on for a while, and write to the files that the next one resumes.
+  # When an engine is killed, its other tasks live on for a while. They write to the files that the next engine resumes.
   touch engine
   for victim in 1:1 7:3 64:40; do
     echo "${victim#*:}" >victims
@@ -162,8 +162,8 @@ submit --array=3
 merge
 check_shards 64 1
 
-# The host goes down: its daemon, the process that looks after a task, and the task. Of 64 tasks the others have ended before: the controller would
-# wait a minute for those that the daemon lost.
+# The host goes down: its daemon, the process that looks after a task, and the task. With 64 tasks, the other 63 run first: the
+# controller would wait a minute for each that the daemon loses.
 for victim in 1:1 7:4 64:40; do
   shards=${victim%:*} tasks=()
   echo "${victim#*:}" >victims

@@ -1,5 +1,5 @@
-// Long texts, and those that wait for an earlier one, are in a temporary file: what comes out is what went in, in order, and the memory is that of
-// a few blocks.
+// A temporary file holds long texts, and texts that wait for an earlier one. They come out as they went in, in order, and take the memory of a few
+// blocks.
 #include "tools/rheonet/spool.hpp"
 
 #include <doctest/doctest.h>

@@ -27,7 +27,7 @@ class Design {
   /// The number of runs that belong together. Without Sobol indices it is 1. With them, and n ranges, it is n + 2. Each group draws
   /// two points, A and B. Its runs are A, B, and n copies of A, each with another of its values replaced by that of B.
   long group() const { return group_; }
-  /// Whether `holds` is true for all values of a path that are listed. Of a path that is drawn from an interval, for a single value.
+  /// Whether `holds` is true for all values of a path that are listed. A path that is drawn from an interval has a single one, its median.
   bool all_of(std::size_t path, const std::function<bool(const std::string& value)>& holds) const;
   /// Whether the points are a sample of a distribution. A grid is not, and neither are points that are drawn again for each row of a list.
   bool has_distribution() const { return grid_ == 1 && (rows_ == 1 || drawn_ == 1); }

@@ -33,7 +33,7 @@ class InOrder {
           if (!take_ready() || !tasks_.go_on(done_)) end();
         }
       } catch (...) {
-        end();  // Else the workers would go on.
+        end();  // Stops the workers.
         throw;
       }
       end();

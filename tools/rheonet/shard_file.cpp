@@ -15,6 +15,7 @@
 #include <memory>
 #include <optional>
 
+#include "core/netlist/csv_fields.hpp"
 #include "tools/rheonet/point_list.hpp"
 #include "tools/rheonet/sweep_resume.hpp"
 #include "tools/rheonet/words.hpp"
@@ -119,6 +120,7 @@ std::variant<bool, NoVariation> read_rows(const Part& part, long runs, const std
   if (line + '\n' != header) return no_shard(part.file, "has other columns than this sweep");
   const std::string end = last_line(part.shard);
   long run = part.shard.first(runs);  // The next run.
+  const std::size_t columns = csv_fields(line).size();
   std::string begin;                  // The cells that the rows of the run before it begin with.
   const long behind = part.shard.end(runs);
   for (long number = 3; std::getline(in, line); ++number) {
@@ -133,7 +135,7 @@ std::variant<bool, NoVariation> read_rows(const Part& part, long runs, const std
     // Rows are in the order of the runs: each belongs to the same run as the row before it, or to the next run.
     const bool in_order = is_of_run && (found == run || found == run + 1) && found <= behind && (found > run || run > part.shard.first(runs));
     if (in_order && found > run) begin = key(run);
-    if (!in_order || !is_row(std::string_view(line).substr(0, line.size() - 1), begin, header))
+    if (!in_order || !is_row(std::string_view(line).substr(0, line.size() - 1), begin, columns))
       return no_shard(part.file, fmt::format("is damaged: line {} is not a row of run {}", number, run + 1));
     run = found;
     lines += line;

@@ -50,13 +50,13 @@ class Spool {
 
  private:
   struct Block {
-    std::int64_t place;
+    std::int64_t place;  ///< In the temporary file.
     std::size_t size;
   };
   void write();
 
   SpoolFile* file_ = nullptr;
-  std::vector<Block> blocks_;  ///< Of the temporary file.
+  std::vector<Block> blocks_;
   std::string rest_;           ///< The text after the blocks.
   std::size_t size_ = 0;
 };

@@ -82,8 +82,8 @@ std::vector<Quantile> quantiles_of(OrderStatistics& values, const std::vector<do
 
 struct Statistics::Accumulator {
   OrderStatistics values;
-  std::vector<BlockSums> blocks;  ///< Of all values.
-  std::vector<BlockSums> whole;   ///< Of the groups all of whose runs have a value; empty unless the design has groups.
+  std::vector<BlockSums> blocks;  ///< Over all values.
+  std::vector<BlockSums> whole;   ///< Over the groups in which each run has a value; empty unless the design has groups.
   long missing = 0;
   std::optional<double> origin;  ///< The first value.
 };

@@ -17,10 +17,10 @@ namespace rheonet::tool {
 
 bool is_of_failed_run(std::string_view row) { return !row.ends_with(",\n"); }
 
-bool is_row(std::string_view line, std::string_view key, std::string_view header) {
+bool is_row(std::string_view line, std::string_view key, std::size_t columns) {
   if (!line.starts_with(key)) return false;
   const std::vector<CsvField> cells = csv_fields(line);
-  if (cells.size() != csv_fields(header).size()) return false;
+  if (cells.size() != columns) return false;
   const auto is_value = [](const CsvField& cell) {
     const std::optional<double> value = csv_number(cell);
     return cell.text.empty() || (value && std::isfinite(*value));
@@ -78,6 +78,7 @@ std::variant<Left, NoVariation> what_is_left(const std::string& file, const Expe
   long run = expected.first, count = 0;  // The number of the run whose rows are read, and the number of these rows.
   bool failed = false;                   // Whether the last of these rows says that the run failed.
   std::string begin = run < expected.behind ? expected.key(run) : "";
+  const std::size_t columns = csv_fields(expected.header).size();
   while (next(line)) {
     if (!expected.end.empty() && expected.end.starts_with(line)) break;
     // A line that is cut off within its key may belong to this run or to the next.
@@ -95,7 +96,7 @@ std::variant<Left, NoVariation> what_is_left(const std::string& file, const Expe
       if (!line.starts_with(begin) && !begin.starts_with(line))
         return other(number, fmt::format("does not begin with `{}`", begin));
     }
-    if (line.back() == '\n' && !is_row(std::string_view(line).substr(0, line.size() - 1), begin, expected.header))
+    if (line.back() == '\n' && !is_row(std::string_view(line).substr(0, line.size() - 1), begin, columns))
       return other(number, "is damaged");
     left.last += line.size();
     failed = is_of_failed_run(line);

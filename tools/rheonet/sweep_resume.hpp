@@ -16,7 +16,7 @@ struct Left {
   long runs = 0;          ///< Runs before this number are complete.
   std::size_t bytes = 0;  ///< Size of the complete runs and of the lines before them.
   long lines = 0;
-  long failed = 0;  ///< Of the complete runs, those that failed.
+  long failed = 0;  ///< Number of complete runs that failed.
   std::size_t head = 0;  ///< Size of the lines before the first row.
   std::size_t last = 0;  ///< Size of the text after the complete runs: the last run, whose end may be missing [bytes].
 };
@@ -33,9 +33,9 @@ struct Expected {
 /// Whether a row of a sweep's table is that of a failed run: its last cell has the reason.
 bool is_of_failed_run(std::string_view row);
 
-/// Whether a line without its end is a row of a sweep's table: it begins with the cells of its run and has as many cells as the header; those
-/// after the cells of the run are empty or finite numbers, but for the last, which may have the reason why the run failed.
-bool is_row(std::string_view line, std::string_view key, std::string_view header);
+/// Whether a line, without its end, is a row of a table with so many columns. `key` are the cells that it has to begin with. The cells after them are
+/// empty or finite numbers. Only the last may be a text, the reason why the run failed.
+bool is_row(std::string_view line, std::string_view key, std::size_t columns);
 
 /// The line, counted from 0, in which a text differs from a piece of a file that should be its beginning, `size` bytes from `begin` on. Absent
 /// if they do not differ. Empties the text. Throws WriteError.

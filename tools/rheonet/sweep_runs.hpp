@@ -34,8 +34,8 @@ class Sweep {
   /// Simulates the runs first .. end - 1 and appends their rows to an empty text. Returns false if it was stopped. May be called on any thread.
   /// Throws WriteError if a temporary file cannot be written: that is no fault of the runs.
   bool make(long first, long end, Spool& rows, const std::atomic<bool>& stop);
-  /// How many runs to make at once. All scenes are read before the first run: with what reading needs still in the processor's caches, a
-  /// scene takes two thirds of the time. Only where each run is one row.
+  /// How many runs to make at once: several where each run is one row. Their scenes are read one after the other, before the first run. The
+  /// processor's caches then still hold the code of the reader, and a scene takes two thirds of the time.
   long most_at_once() const { return table_.measures() ? 16 : 1; }
 
   const Sources& sources() const { return first_.sources; }
