@@ -50,6 +50,9 @@ class ConvexNetwork {
   void tie(const std::array<int, 3>& nodes, const std::array<double, 3>& factors, double given);
   /// The force of each equation, in the order of `tie`, after `solve`.
   std::vector<double> forces_of_equations() const;
+  /// Joins the third node of an equation to the other two where these are together, if the equation permits equal values, or the two stand still.
+  /// After `solve`.
+  void join_by_equations(DisjointSets& sets) const;
   /// The largest of all loads and forces, those of sticking branches left out.
   double largest_force() const;
   /// A guess that only saves time: this branch, whose law jumps, slipped to this side before.
@@ -116,7 +119,6 @@ class ConvexNetwork {
   std::vector<char> dependent_equations() const;
   std::vector<std::size_t> open_equations() const;
   void classify_equations();
-  void join_by_equations(DisjointSets& sets) const;
   void share_with_open_equations(const std::vector<std::size_t>& open, const std::vector<int>& row, const Eigen::VectorXd& load, double roundoff);
   double torn(const Equation& equation) const;
   void part_torn_equations();

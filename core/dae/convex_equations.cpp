@@ -207,7 +207,6 @@ void ConvexNetwork::share_with_open_equations(const std::vector<std::size_t>& op
   for (std::size_t i = 0; i < open.size(); ++i) equations_[open[i]].force = force[bonds.size() + i];
 }
 
-/// Where two nodes of an equation are together, the third one is there too if the equation permits equal values, as it does where they stand still.
 void ConvexNetwork::join_by_equations(DisjointSets& sets) const {
   std::vector<char> given(u_.size(), 0), still(given);  // of each set
   for (std::size_t k = 0; k < u_.size(); ++k) {

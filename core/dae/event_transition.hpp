@@ -117,7 +117,6 @@ class EventTransition {
   bool at_loss(const ModeSelection& selection, std::size_t slider) const;
   bool stops_within(const ModeSelection& selection, const State& state) const;
   bool holds(const ModeSelection& selection, std::size_t slider) const;
-  void hold_by_trains(DisjointSets& held) const;
   void count_from_turns(State& state) const;
   void stop_at_turns(const Fired& fired, const Modes& modes, State& state);
   void add_nodes(ModeSelection& selection, const State& state) const;

@@ -50,16 +50,17 @@ std::vector<int> EventTransition::select_modes(double t, double h, const Fired& 
   }
   take_directions(selection, state, change);
   std::vector<int> broken;
-  DisjointSets held(nodes);
-  join_given(problem, held);
+  DisjointSets given(nodes), held(nodes);  // of nodes; of their places in the problem
+  join_given(problem, given);
+  for (std::size_t n = 0; n < nodes; ++n) held.join(slot(static_cast<NodeId>(n)), slot(given.find(static_cast<NodeId>(n))));
   for (std::size_t k = 0; k < selection.slider.size(); ++k) {
-    if (holds(selection, k)) held.join(network_.sliders[k].branch.a, network_.sliders[k].branch.b);
+    if (holds(selection, k)) held.join(slot(network_.sliders[k].branch.a), slot(network_.sliders[k].branch.b));
   }
-  hold_by_trains(held);
+  problem.join_by_equations(held);
   for (std::size_t k = 0; k < selection.slider.size(); ++k) {
     const Branch& b = network_.sliders[k].branch;
     // A slider at its bound, while others hold its ends, sticks: the forces of all of them are those of least norm.
-    const bool sticks = held.find(b.a) == held.find(b.b) && problem.difference(slot(b.a), slot(b.b)) == 0 && !broken_[k];
+    const bool sticks = held.find(slot(b.a)) == held.find(slot(b.b)) && problem.difference(slot(b.a), slot(b.b)) == 0 && !broken_[k];
     const int direction = apart(k) ? Modes::forward : sticks ? 0 : problem.direction(selection.slider[k]);
     modes.slider[k] = static_cast<signed char>(direction);
     if (direction != 0 && bound(k, direction) > inputs_.box(k).at(direction).sliding.value) broken.push_back(static_cast<int>(k));
@@ -124,27 +125,6 @@ EventTransition::ModeSelection EventTransition::look_ahead(double t, double h, c
     report_undecided(network_, at_time(*network_.scene, t));
   }
   return selection;
-}
-
-/// A train whose other two nodes are held together holds its last node there too, if its equation permits equal velocities. At ground it does: all are 0.
-void EventTransition::hold_by_trains(DisjointSets& held) const {
-  for (bool again = true; again;) {
-    again = false;
-    for (const Network::Train& train : network_.trains) {
-      double sum = 0, size = 0;
-      for (const double factor : train.factor) {
-        sum += factor;
-        size += std::abs(factor);
-      }
-      for (std::size_t i = 0; i < 3; ++i) {
-        const NodeId last = train.node[i], one = train.node[(i + 1) % 3], other = train.node[(i + 2) % 3];
-        if (held.find(one) != held.find(other) || held.find(last) == held.find(one)) continue;
-        if (held.find(one) != held.find(ground) && std::abs(sum) > numerics::equal_given_values * size) continue;
-        held.join(last, one);
-        again = true;
-      }
-    }
-  }
 }
 
 /// Whether a slider joins its ends after the event.
