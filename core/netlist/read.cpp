@@ -328,9 +328,12 @@ class Reader {
       std::vector<std::string> names;
       for (const ElementTemplate& plan : scope.entries) names.push_back(plan.name);
       if (!from_table) names.insert(names.end(), top_level.begin(), top_level.end());
+      const TomlEntry* parameters = document_.value().find("parameters");
+      const bool parameter = !from_table && parameters && parameters->value.find(part.name);
       diagnostics_.error(
-          part.spot, "nothing is called `" + part.name + "`",
-          did_you_mean(part.name, names, "a path begins with an element (k1.stiffness) or a table (simulate.stop)"));
+          part.spot, parameter ? "no element is called `" + part.name + "`" : "nothing is called `" + part.name + "`",
+          parameter ? "the path of the parameter is `parameters." + part.name + "`"
+                    : did_you_mean(part.name, names, "a path begins with an element (k1.stiffness) or a table (simulate.stop)"));
     }
     return active;
   }

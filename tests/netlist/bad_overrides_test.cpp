@@ -30,6 +30,20 @@ command line: error: `drive.velocity` is a table, which cannot be multiplied
   name one number of it, a quantity or an expression
 )~",
        {R"~(drive.velocity*=3)~"}},
+      {"a parameter without its table",
+       R"~(
+[parameters]
+K = "3 N/m"
+[elements]
+k1 = { type = "spring", between = ["a", "ground"], stiffness = "K" }
+)~",
+       R"~(
+command line: error: no element is called `K`
+      | --set K=3
+      |       ^
+  the path of the parameter is `parameters.K`
+)~",
+       {R"~(K=3)~"}},
       {"a text that is multiplied",
        R"~(
 title = "A spring"
