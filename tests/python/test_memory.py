@@ -99,3 +99,25 @@ def test_a_temporary_file_that_cannot_be_written_is_named(peak, tmp_path):
     done = subprocess.run([*command, "--resume"], cwd=tmp_path, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
     assert (tmp_path / "rows.csv").read_text().count("\n") == 200_003
+
+
+SAMPLE = """
+import resource, sys, warnings
+import rheonet
+warnings.simplefilter("ignore")
+scene = rheonet.load("scene.toml", {"simulate.output": {"points": 2}, "simulate.stop": "1 ms"})
+# one run in ten thousand fails, for want of a mass above 0
+values = {"k1.stiffness": "normal(100 N/m, 5 %)", "m1.mass": "uniform(-0.0001 kg, 1 kg)"}
+found = scene.sample(values, int(sys.argv[1]), ["max(k1.force)"], kind="latin")
+assert found.error.dtype == object and 0 < (found.error != "").sum() < 5
+print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024)
+"""
+
+
+def test_runs_of_a_sample_in_python(tmp_path):
+    (tmp_path / "scene.toml").write_text(SCENE)
+
+    def peak(runs):
+        return int(subprocess.run([sys.executable, "-c", SAMPLE, str(runs)], cwd=tmp_path, check=True, capture_output=True, text=True).stdout)
+
+    assert peak(30_000) - peak(10_000) < 20_000 * 100 + GROWTH  # 40 bytes a run are the result

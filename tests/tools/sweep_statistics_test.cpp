@@ -170,7 +170,7 @@ TEST_CASE("sweep: statistics that cannot be are refused") {
   refused("--vary parameters.B=1,2 --measure steps --statistics s.json", "a grid of values has no distribution");
   refused("--vary parameters.B=1:2 --random 4 --measure steps --quantiles 0.5", "`--quantiles` is for `--statistics FILE.json`");
   refused("--vary parameters.B=1:2 --random 4 --measure steps --statistics s.json --quantiles 5", "above 0 and below 1, not `5`");
-  refused("--vary parameters.B=1:2 --random 4 --measure steps --statistics s.csv", "`--statistics s.csv`: statistics are written as JSON");
+  refused("--vary parameters.B=1:2 --random 4 --measure steps --statistics s.csv", "`--statistics s.csv` is not a .json");
 }
 
 }  // namespace rheonet::test::sweep_statistics_test
