@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -156,6 +158,27 @@ record = ["y.out"]
   CHECK(measure["values"].get<long>() < 1100);
   // The probability that all of a1 + b1, a2 + b2, a2 + b1 and a1 + b2 are above 0 is that of min(a1, a2) + min(b1, b2) > 0: 1/6.
   CHECK(std::abs(measure["groups"].get<double>() - 1000.0 / 6) < 50);
+}
+
+TEST_CASE("sweep: mean, deviation and indices of values whose squares exceed double precision scale with the values") {
+  const Folder folder(dragged_dashpot);
+  const auto of = [&](double scale) {
+    std::ostringstream force;
+    force << std::setprecision(17) << scale << " N";
+    folder.write("scene.toml", std::string(ishigami).replace(std::string(ishigami).find("1 N"), 3, force.str()));
+    folder.shell(three + "--random 100 --sobol-indices", 0);
+    return statistics(folder)["measures"][0];
+  };
+  const Json one = of(1);
+  REQUIRE(one["standard_deviation"]["value"].get<double>() > 1);
+  for (const double scale : {std::ldexp(1, 600), std::ldexp(1, -600)}) {
+    const Json scaled = of(scale);
+    CAPTURE(scaled.dump());
+    for (const std::string name : {"mean", "standard_deviation"})
+      for (const std::string part : {"value", "standard_error"})
+        CHECK(scaled[name][part].get<double>() == doctest::Approx(scale * one[name][part].get<double>()).epsilon(1e-9).scale(0));
+    CHECK(scaled["sobol_indices"].dump() == one["sobol_indices"].dump());
+  }
 }
 
 TEST_CASE("sweep: statistics that cannot be are refused") {
