@@ -14,6 +14,7 @@ def mapping(name, value, example):
     for key in value:
         if not isinstance(key, str):
             raise TypeError(f"the keys of {name} must be text, as in {example}, not {key!r}")
+        unicode(f"a key of {name}", key)
     return value
 
 
@@ -34,12 +35,10 @@ def unicode(name, value):
 
 def texts(name, value, example):
     """One text, or several of them, as a list."""
-    if isinstance(value, str):
-        return [value]
-    found = list(value) if isinstance(value, Iterable) else [None]
+    found = [value] if isinstance(value, str) else list(value) if isinstance(value, Iterable) else [None]
     if not all(isinstance(one, str) for one in found):
         raise TypeError(f"{name} must be text or a list of text, as {example!r}, not {value!r}")
-    return found
+    return [unicode(name, one) for one in found]
 
 
 def count(name, value, least=1, most=2**31 - 1):
@@ -92,6 +91,8 @@ def client(value):
 
 def values(path, given):
     """The values of a parameter as a list; text is one value, not a list of characters."""
+    if np.ma.is_masked(given):
+        raise ValueError(f"the values of {path!r} have masked entries: leave them out, as with compressed()")
     if isinstance(given, (str, Mapping)) or np.ndim(np.asarray(given, dtype=object)) == 0:
         raise TypeError(f"the values of {path!r} must be a list, as [{given!r}], not {given!r}")
     return list(np.asarray(given) if hasattr(given, "__array__") else given)  # an array of xarray would give arrays without dimensions

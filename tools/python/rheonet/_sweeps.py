@@ -45,7 +45,7 @@ def sample(scene, values, count, measure, kind, seed, correlations, accuracy, jo
     measures = _measures(measure)
     if not measures or not paths:
         raise ValueError("a Monte Carlo needs a distribution of at least one value, and at least one measure")
-    vary = [f"{path}={_arguments.text(f'the distribution of {path!r}', values[path])}" for path in paths]
+    vary = [f"{path}={_arguments.text(f'the distribution of {path!r}', values[path]).strip()}" for path in paths]
     count, seed = _arguments.count("count", count), _arguments.count("seed", seed, least=0, most=2**64 - 1)
     points = _rheonet.DrawnPoints(vary, kind, count, seed, _arguments.correlations(correlations))
     coordinates = {path: _drawn(points, k) for k, path in enumerate(paths)}
@@ -80,7 +80,7 @@ class _Runs:
             _arguments.client(client)
         self._points, self._measures = points, measures
         self._found = np.full((len(measures), len(points)), np.nan)
-        self._units = None
+        self._kept = None  # the number of a run that is kept, its units and, of rows, their times: those of all
         self._results = {}
         self._reasons = {}
         self._first_error = None
@@ -97,10 +97,27 @@ class _Runs:
                 self._first_error = outcome  # of the others only the message is kept, for an error may hold rows
             self._reasons[number] = outcome.message
         elif self._measures:
+            self._compare(number, {name: claim["unit"] for name, claim in zip(self._measures, outcome)})
             self._found[:, number] = [claim["found"] for claim in outcome]
-            self._units = self._units or [claim["unit"] for claim in outcome]
         else:
+            self._compare(number, outcome.units, outcome.time)
             self._results[number] = outcome
+
+    def _compare(self, number, units, times=()):
+        """Raises an error if a run does not fit in a data set with another one."""
+        if self._kept is None:
+            self._kept = number, units, times
+        first, units_of_first, times_of_first = self._kept
+        runs = "the runs {} and {}".format(*(self._points[place] for place in sorted((first, number))))
+        if list(units) != list(units_of_first):
+            raise ValueError(f"{runs} have different records; give `measure`")
+        for name, unit in units.items():
+            if unit != units_of_first[name]:
+                raise ValueError(f"{name!r} has the unit {units_of_first[name]} in one of {runs}, and {unit} in the other")
+        if not np.array_equal(times, times_of_first):
+            raise ValueError(
+                f"the rows of {runs} are at different times; give `measure`, or let `simulate.output` and `simulate.stop` be the same in all runs"
+            )
 
     def _tell_failures(self, paths):
         if not self._reasons:
@@ -117,30 +134,21 @@ class _Runs:
         )
 
     def measured(self, dimensions, shape):
-        return {
-            name: (dimensions, np.reshape(found, shape), {"units": unit})
-            for name, found, unit in zip(self._measures, self._found, self._units)
-        }
+        _, units, _ = self._kept
+        return {name: (dimensions, np.reshape(found, shape), {"units": units[name]}) for name, found in zip(self._measures, self._found)}
 
     def rows(self, dimensions, shape):
         """The times of the rows, and a variable for each record."""
-        place_of_first = min(self._results)
-        first = self._results[place_of_first]
-        for place, result in sorted(self._results.items()):
-            runs = f"the runs {self._points[place_of_first]} and {self._points[place]}"
-            if list(result.units.items()) != list(first.units.items()):
-                raise ValueError(f"{runs} have different records; give `measure`")
-            if not np.array_equal(result.time, first.time):
-                raise ValueError(
-                    f"the rows of {runs} are at different times; give `measure`, or let `simulate.output` and `simulate.stop` be the same in all runs"
-                )
+        _, units, times = self._kept
         variables = {}
-        for name, unit in first.units.items():
-            values = np.full((len(self._points), len(first.time)), np.nan)
+        for name, unit in units.items():
+            values = np.full((len(self._points), len(times)), np.nan)
             for place, result in self._results.items():
                 values[place] = result[name]
-            variables[name] = ([*dimensions, "time"], np.reshape(values, [*shape, len(first.time)]), {"units": unit})
-        return first.time, variables
+            # A varied signal may be a record as well: "push.force".
+            attributes = {"units": unit} | ({"long_name": name} if name in dimensions else {})
+            variables[free_name(name, dimensions)] = ([*dimensions, "time"], np.reshape(values, [*shape, len(times)]), attributes)
+        return times, variables
 
     def errors(self, dimensions, shape, taken):
         """A variable with the reason why each run failed, if any did."""
@@ -152,7 +160,8 @@ class _Runs:
 
 
 def _outcome(scene, paths, measures, accuracy, raising, portable, point, progress=None):
-    changes = {**scene._changes, **dict(zip(paths, map(setting, point)))}
+    kept = {path: value for path, value in scene._changes.items() if path not in paths}  # a varied value comes after all others
+    changes = {**kept, **dict(zip(paths, map(setting, point)))}
     reading = scene._source.read(_runs.overrides(changes), measures, _runs.folders_of_laws(), [], False)
     try:
         result = _runs.run(type(scene)(scene._source, changes, _runs.complete(reading)), accuracy, progress=progress)
@@ -160,7 +169,7 @@ def _outcome(scene, paths, measures, accuracy, raising, portable, point, progres
         if portable and isinstance(error, SimulationError):
             error.result = None  # its rows stay where they are
         error.add_note(f"in the run with {dict(zip(paths, point))}")
-        if raising or (not reading.complete and _concerns_all(reading, list(changes), paths)):
+        if raising or (not reading.complete and _concerns_all(scene, reading, measures, list(changes), paths)):
             raise
         return error.with_traceback(None)
     if measures:
@@ -168,8 +177,14 @@ def _outcome(scene, paths, measures, accuracy, raising, portable, point, progres
     return _parallel.Rows(result) if portable else result
 
 
-def _concerns_all(reading, changed, paths):
-    """Whether a mistake is one of every run: in the path of a varied value, in another change, or in a measure."""
-    return any(
-        in_path or not 0 <= place < len(changed) or changed[place] not in paths for place, in_path in reading.mistakes_in_changes
-    )
+def _concerns_all(scene, reading, measures, changed, paths):
+    """Whether a mistake is one of every run: in the path of a varied value, in another change, or in a measure of the scene itself."""
+    for place, in_path in reading.mistakes_in_changes:
+        in_measure = not 0 <= place < len(changed)
+        if in_measure:
+            as_loaded = scene._source.read(_runs.overrides(scene._changes), measures, _runs.folders_of_laws(), [], False)
+            if not as_loaded.complete:
+                return True
+        elif in_path or changed[place] not in paths:
+            return True
+    return False

@@ -7,12 +7,12 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from . import _rheonet
+from . import _arguments, _rheonet
 
 
 def setting(value):
     """A value as after `--set PATH=`, where text stands without quotes."""
-    return value if isinstance(value, str) else toml_value(value)
+    return _arguments.unicode("a value", value) if isinstance(value, str) else toml_value(value)
 
 
 def toml_value(value):
@@ -21,7 +21,7 @@ def toml_value(value):
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, numbers.Real):
-        return repr(value) if isinstance(value, int) else repr(float(value))
+        return repr(value) if isinstance(value, int) and abs(value) < 2**63 else repr(float(value))
     if isinstance(value, str):
         return quoted(value)
     if isinstance(value, Mapping):
@@ -32,8 +32,8 @@ def toml_value(value):
 
 
 def quoted(text):
-    """A string of TOML, which has the escapes of JSON but for pairs of surrogates."""
-    return json.dumps(text, ensure_ascii=False)
+    """A string of TOML, which has the escapes of JSON but for pairs of surrogates, and escapes DEL."""
+    return json.dumps(_arguments.unicode("a text", text), ensure_ascii=False).replace("\x7f", "\\u007f")
 
 
 def toml_of(tables):
@@ -55,7 +55,7 @@ def coordinate(path, values):
     texts = [value for value in values if isinstance(value, str)]
     all_scalar = all(isinstance(value, (str, numbers.Real, np.bool_)) for value in values)
     if not texts and all_scalar:
-        return (path, values)
+        return (path, [value if isinstance(value, (bool, np.bool_)) else float(value) for value in values])
     evaluated = [_rheonet.evaluated(text) for text in texts]  # in SI, and whether it has a unit; None for a text that is no number
     if not all_scalar or None in evaluated:
         return (path, [setting(value) for value in values])
