@@ -21,6 +21,7 @@ Environment with_variables(std::span<const RunTimeExpression::Variable> variable
     all.names.emplace(variable.name, number);
   }
   all.outer = &parameters;
+  all.known = parameters.known;
   return all;
 }
 

@@ -160,7 +160,20 @@ class Connection {
     }
     Number time{.value = 1, .dimension = dimension_of(Quantity::time, context_.domain), .plain = false, .typed_time = 1};
     variables.push_back({"t", plain ? Number{} : time});
-    return RunTimeExpression::compile(function.source->text, variables, *function.parameters);
+    const Environment environment{.names = {}, .outer = function.parameters.get(), .known = known_in(function)};
+    return RunTimeExpression::compile(function.source->text, variables, environment);
+  }
+
+  /// The names that the expression of a block may use, as a hint: "known here are u1 (m1.velocity), t and the parameters".
+  std::string known_in(const BlockFunction& function) const {
+    const SceneBlock& block = scene_.blocks[at(function.block)];
+    if (function.law || block.of_stop_when) return function.parameters->known;
+    std::string known = "known here are ";
+    for (std::size_t k = 0; k < block.inputs.size(); ++k) {
+      const SceneBlock::Input& input = block.inputs[k];
+      known += fmt::format("`{}` ({}{}), ", input_name(function, k), input.sign < 0 ? "-" : "", input.from_block ? name(input.index) : scene_.sensed[at(input.index)].path);
+    }
+    return known + "the time `t` and the parameters";
   }
 
   BlockUnit made_by(const BlockFunction& function, bool any) const {
@@ -171,24 +184,6 @@ class Connection {
     const auto expression = expression_of(function);
     const auto* sound = std::get_if<RunTimeExpression>(&expression);
     return sound ? unit_of(sound->unit()) : BlockUnit{};
-  }
-
-  /// Reports a `u3` of a block with two inputs, which would be an unknown name or even a unit. True if there is one.
-  bool refuse_input(const BlockFunction& function) {
-    const std::size_t inputs = scene_.blocks[at(function.block)].inputs.size();
-    const std::string& text = function.source->text;
-    for (const std::string& name : identifiers_of(text)) {
-      const bool numbered = name.size() > 1 && name[0] == 'u' && name.find_first_not_of("0123456789", 1) == name.npos;
-      if (!numbered || function.parameters->find(name)) continue;
-      std::size_t k = 1;
-      while (k <= inputs && name != "u" + std::to_string(k)) ++k;
-      if (k <= inputs) continue;
-      diagnostics_.error(diagnostics_.inside(*function.source, place_of_name(name, text)),
-                         "the output of `" + this->name(function.block) + "`: there is no `" + name + "`: the block takes in " + (inputs == 0 ? "nothing" : std::to_string(inputs) + (inputs == 1 ? " signal" : " signals")),
-                         inputs == 0 ? "name its inputs: in = [\"a.position\", \"b.force\"]" : "");
-      return true;
-    }
-    return false;
   }
 
   void look_up(const BlockFunction& function) {
@@ -209,7 +204,6 @@ class Connection {
     std::optional<DiagnosticList::Within> within;
     if (!function.within.empty()) within.emplace(diagnostics_, function.within);
     if (function.lookup.table) return look_up(function);
-    if (!function.law && refuse_input(function)) return;
     auto expression = expression_of(function);
     if (const auto* wrong = std::get_if<TextError>(&expression)) {
       const auto words = [&](const std::string& text) { return function.law ? in_words_of_law(text, function.names) : text; };

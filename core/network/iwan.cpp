@@ -139,10 +139,12 @@ double Iwan::to_kink(double p) const {
 }
 
 std::size_t Iwan::yielded(double x, std::size_t limit) const {
-  const auto begin = y_.begin();
-  return static_cast<std::size_t>(std::upper_bound(begin + static_cast<std::ptrdiff_t>(passed_),
-                                                   begin + static_cast<std::ptrdiff_t>(std::max(passed_, limit)), x) -
-                                  begin);
+  const std::size_t end = std::max(passed_, limit);
+  // Force, energy and events are asked for at one place in turn.
+  const bool again = found_ >= passed_ && found_ <= end && (found_ == passed_ || y_[found_ - 1] <= x) && (found_ == end || x < y_[found_]);
+  if (again) return found_;
+  const auto at = [&](std::size_t k) { return y_.begin() + static_cast<std::ptrdiff_t>(k); };
+  return found_ = static_cast<std::size_t>(std::upper_bound(at(passed_), at(end), x) - y_.begin());
 }
 
 double Iwan::force(double p, double& slope) const {

@@ -121,6 +121,7 @@ class Iwan {
   std::size_t next_ = 0, next_end_ = 0;    ///< Ranks [next_, next_end_): the next kink that is an event.
   long branch_ = 0;
   struct Back;
+  mutable std::size_t found_ = 0;  ///< last answer of `yielded`
   mutable std::shared_ptr<const Back> back_;  ///< Cached copy of the bundle, reversed at one deflection.
 };
 

@@ -49,11 +49,12 @@ std::vector<Touch> touches(const Scene& scene, const std::vector<Reduced>& laws)
   for (std::size_t e = 0; e < laws.size(); ++e) {
     const SceneElement& element = scene.elements[e];
     const Role role = laws[e].component ? laws[e].component->role : Role::nothing;
+    const bool spring = is_spring(laws[e]), slider = element.signals.empty() && is_plain_slider(laws[e]);
     const auto touch = [&](NodeId node) {
       Touch& t = result[at(node)];
       ++t.count;
-      if (is_spring(laws[e])) t.spring = static_cast<int>(e);
-      if (element.signals.empty() && is_plain_slider(laws[e])) t.slider = static_cast<int>(e);
+      if (spring) t.spring = static_cast<int>(e);
+      if (slider) t.slider = static_cast<int>(e);
       t.firm = t.firm || role == Role::mass || role == Role::motion;
       if (role == Role::motion && prescribes(element, Quantity::position)) {
         t.start = {element.signals.at(0).before(scene.start), element.signals.at(0).value(scene.start)};

@@ -38,9 +38,7 @@ GlobalErrorModel::GlobalErrorModel(const Network& network, const Structure& stru
   power_.assign(parts_.size(), 0);
 }
 
-long GlobalErrorModel::Swing::follow(double x) {
-  largest = std::max(largest, std::abs(x));
-  if (std::abs(x) <= numerics::turn_magnitude * largest) return 0;
+long GlobalErrorModel::Swing::turn(double x) {
   const signed char now = x > 0 ? 1 : -1;
   const bool turned = side == -now;
   side = now;

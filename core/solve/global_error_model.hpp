@@ -1,8 +1,10 @@
 #pragma once
 
-#include <cstddef>
+#include <algorithm>
+#include <cmath>
 #include <vector>
 
+#include "core/base/numerics.hpp"
 #include "core/dae/dae.hpp"
 #include "core/network/structure.hpp"
 
@@ -42,7 +44,13 @@ class GlobalErrorModel {
     double of_turn = 0;    ///< `largest` at the last sign change
     long turns = 0;
     signed char side = 0;  ///< sign of its last value that was not ignored
-    long follow(double x);  ///< returns the change of `turns`
+    /// Takes the next value. Returns the change of `turns`.
+    long follow(double x) {
+      largest = std::max(largest, std::abs(x));
+      const bool nothing_new = turns == 0 && side == (x > 0 ? 1 : -1);
+      return nothing_new || std::abs(x) <= numerics::turn_magnitude * largest ? 0 : turn(x);
+    }
+    long turn(double x);
   };
   /// A mass that moves freely.
   struct Mover {

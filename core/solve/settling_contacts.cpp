@@ -26,7 +26,6 @@ std::vector<double> pressing(const Network& network, const std::vector<int>& con
 /// Each hop is resolved relative to its own height, which goes with the square of its velocity: so an error shifts the next contact, and
 /// all that follow, by the same share of their times, however small the hop is.
 double Tolerances::hop_share(std::size_t branch) const {
-  if (!(hop_[branch] > 0)) return 1;
   const double share = hop_[branch] / flow_seen_[branch];
   return numerics::hop_resolution * share * share;
 }

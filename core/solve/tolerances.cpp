@@ -303,7 +303,8 @@ double Tolerances::scale_of(const Quantity& q, const Scales& largest, const Leas
   const double stiffness = std::abs(slope[q.index]);
   const double own = std::max(force_seen_[q.index], stiffness * foreseen_of(q));
   const double by_force = std::max(own, numerics::scale_floor * largest[static_cast<std::size_t>(Sort::force)]);
-  return hop_share(q.index) * (by_force > 0 && stiffness > 0 ? std::min(scale, by_force / stiffness) : scale);
+  if (by_force > 0 && stiffness > 0) scale = std::min(scale, by_force / stiffness);
+  return hop_[q.index] > 0 ? hop_share(q.index) * scale : scale;
 }
 
 /// Velocities at a train follow from each other: the slowest is known to the round-off of the fastest.
@@ -346,8 +347,10 @@ void Tolerances::bear_noise(std::size_t i, double t, double jitter, double large
     tolerance = std::max(tolerance, numerics::sum_ulps * std::numeric_limits<double>::epsilon() * longest_[at(part_[at(dae_->structure().rigid[q.index])])]);
   }
   Drift drift = q.sort == Sort::position ? Drift{rounding_now_[at(part_[q.index])]} : drift_[i];
-  if (q.sort == Sort::position) drift.velocity = std::max(drift.velocity, tied_rounding(q.index));
-  if (q.sort == Sort::deflection) drift.velocity = std::max(drift.velocity, tied_rounding(dae_->structure().deflections[q.index]));
+  if (!tied_rounding_.empty()) {
+    if (q.sort == Sort::position) drift.velocity = std::max(drift.velocity, tied_rounding(q.index));
+    if (q.sort == Sort::deflection) drift.velocity = std::max(drift.velocity, tied_rounding(dae_->structure().deflections[q.index]));
+  }
   // An error test compares a step with those since the restart: earlier round-off does not enter.
   const double adds_up = t - (q.sort == Sort::position ? begin_ : restarted_);
   const double drifted = drift.velocity * std::min(adds_up, drift.lasting);
@@ -376,6 +379,7 @@ void Tolerances::update(double t, const std::vector<double>& yp, const Dae::View
   const LeastShares least{.velocity = least_share(numerics::relative_motion_share, numerics::relative_velocity_ulps),
                           .position = least_share(numerics::relative_motion_share, numerics::relative_position_ulps),
                           .way = least_share(numerics::distance_share, numerics::distance_ulps)};
+  const double relative = local();
   std::optional<Scales> to_come;  // rarely needed
   for (std::size_t i = 0; i < quantity_.size(); ++i) {
     double scale = scale_of(quantity_[i], largest, least, slope);
@@ -383,7 +387,7 @@ void Tolerances::update(double t, const std::vector<double>& yp, const Dae::View
       if (!to_come) to_come = scales_to_come(std::max(ahead_, t - begin_), largest);
       scale = (*to_come)[static_cast<std::size_t>(quantity_[i].sort)];
     }
-    tolerance_[i] = std::max(local() * slider_share(quantity_[i]) * scale, numerics::least_step_tolerance * std::min(scale, size_[i]));
+    tolerance_[i] = std::max(relative * slider_share(quantity_[i]) * scale, numerics::least_step_tolerance * std::min(scale, size_[i]));
     bear_noise(i, t, grain * std::abs(yp[i]), largest_velocity_);
   }
   if (positions) loosen_positions();

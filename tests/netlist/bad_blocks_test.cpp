@@ -265,9 +265,10 @@ scene.toml:4:83: error: the output of `f`: `2*u1` is an angular velocity (rad/s)
       {R"~(f = { type = "function", in = "shaft.velocity", out = "u1*u2" }
 )~",
        R"~(
-scene.toml:4:59: error: the output of `f`: there is no `u2`: the block takes in 1 signal
+scene.toml:4:59: error: the output of `f`: unknown name `u2`
     4 | f = { type = "function", in = "shaft.velocity", out = "u1*u2" }
       |                                                           ^
+  did you mean `u1`? known here are `u1` (shaft.velocity), the time `t` and the parameters
 )~"},
       {R"~(f = { type = "function", in = "shaft.velocity", out = "-u1" }
 n = { type = "torque", at = "shaft", torque = { block = "f" } }

@@ -78,7 +78,7 @@ def test_a_killed_worker_loses_nothing(cluster, scene):
 def test_the_number_of_tasks_does_not_matter_and_a_killed_one_is_done_again(cluster, scene, tmp_path, monkeypatch, tasks):
     def group(items, function):  # that of rheonet, but the middle task ends with its worker when it is begun for the first time
         results = [function(item) for item in items]
-        if middle in [point for point, _ in items]:
+        if middle in items:
             try:
                 os.mkdir(folder)
                 os.kill(os.getpid(), signal.SIGKILL)

@@ -123,3 +123,25 @@ def test_rows_that_cannot_wait_leave_the_earlier_file(peak, tmp_path, option):
     assert done.returncode == 1
     assert "the rows of a run cannot be written to a temporary file in `/proc`" in done.stderr
     assert (tmp_path / "rows.csv").read_text() == "earlier\n"
+
+
+SAMPLE = """
+import resource, sys, warnings
+import rheonet
+warnings.simplefilter("ignore")
+scene = rheonet.load("scene.toml", {"simulate.output": {"points": 2}, "simulate.stop": "1 ms"})
+# one run in ten thousand fails, for want of a mass above 0
+values = {"k1.stiffness": "normal(100 N/m, 5 %)", "m1.mass": "uniform(-0.0001 kg, 1 kg)"}
+found = scene.sample(values, int(sys.argv[1]), ["max(k1.force)"], kind="latin")
+assert found.error.dtype == object and 0 < (found.error != "").sum() < 5
+print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024)
+"""
+
+
+def test_runs_of_a_sample_in_python(tmp_path):
+    (tmp_path / "scene.toml").write_text(SCENE)
+
+    def peak(runs):
+        return int(subprocess.run([sys.executable, "-c", SAMPLE, str(runs)], cwd=tmp_path, check=True, capture_output=True, text=True).stdout)
+
+    assert peak(30_000) - peak(10_000) < 20_000 * 100 + GROWTH  # 40 bytes a run are the result

@@ -104,6 +104,7 @@ TEST_CASE("rows are CSV: a file that is named as another format is refused befor
     const Finished refused = folder.shell("rheonet " + command, 2);
     const bool rows = command == "run scene.toml -o x.json" || command.starts_with("sweep");
     CHECK(contains(refused.err, "x.json`: rows are written as CSV" + std::string(rows ? ", NetCDF or MAT" : "") + ", and `.json` is another format\n  name the file .csv"));
+    CHECK(contains(refused.err, "JSON holds summaries: `run --summary") == rows);
     CHECK_FALSE(folder.has("x.json"));
     CHECK_FALSE(folder.has("x.csv"));
   }

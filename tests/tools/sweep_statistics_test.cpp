@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -158,6 +160,27 @@ record = ["y.out"]
   CHECK(std::abs(measure["groups"].get<double>() - 1000.0 / 6) < 50);
 }
 
+TEST_CASE("sweep: mean, deviation and indices of values whose squares exceed double precision scale with the values") {
+  const Folder folder(dragged_dashpot);
+  const auto of = [&](double scale) {
+    std::ostringstream force;
+    force << std::setprecision(17) << scale << " N";
+    folder.write("scene.toml", std::string(ishigami).replace(std::string(ishigami).find("1 N"), 3, force.str()));
+    folder.shell(three + "--random 100 --sobol-indices", 0);
+    return statistics(folder)["measures"][0];
+  };
+  const Json one = of(1);
+  REQUIRE(one["standard_deviation"]["value"].get<double>() > 1);
+  for (const double scale : {std::ldexp(1, 600), std::ldexp(1, -600)}) {
+    const Json scaled = of(scale);
+    CAPTURE(scaled.dump());
+    for (const std::string name : {"mean", "standard_deviation"})
+      for (const std::string part : {"value", "standard_error"})
+        CHECK(scaled[name][part].get<double>() == doctest::Approx(scale * one[name][part].get<double>()).epsilon(1e-9).scale(0));
+    CHECK(scaled["sobol_indices"].dump() == one["sobol_indices"].dump());
+  }
+}
+
 TEST_CASE("sweep: statistics that cannot be are refused") {
   const Folder folder(dragged_dashpot);
   const auto refused = [&](const std::string& options, const std::string& why) {
@@ -170,7 +193,7 @@ TEST_CASE("sweep: statistics that cannot be are refused") {
   refused("--vary parameters.B=1,2 --measure steps --statistics s.json", "a grid of values has no distribution");
   refused("--vary parameters.B=1:2 --random 4 --measure steps --quantiles 0.5", "`--quantiles` is for `--statistics FILE.json`");
   refused("--vary parameters.B=1:2 --random 4 --measure steps --statistics s.json --quantiles 5", "above 0 and below 1, not `5`");
-  refused("--vary parameters.B=1:2 --random 4 --measure steps --statistics s.csv", "`--statistics s.csv`: statistics are written as JSON");
+  refused("--vary parameters.B=1:2 --random 4 --measure steps --statistics s.csv", "`--statistics s.csv` is not a .json");
 }
 
 }  // namespace rheonet::test::sweep_statistics_test

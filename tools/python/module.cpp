@@ -135,8 +135,21 @@ void add_studies(py::module_& module) {
       .def_property_readonly("text", &Sensitivities::text);
 
   module.def("evaluated", &evaluated, py::arg("text"));
-  module.def("drawn_points", &drawn_points, py::arg("vary"), py::arg("kind"), py::arg("count"), py::arg("seed"), py::arg("correlate"),
-             py::call_guard<Unlocked>());
+  py::class_<tool::Design>(module, "DrawnPoints")
+      .def(py::init(&drawn_points), py::arg("vary"), py::arg("kind"), py::arg("count"), py::arg("seed"), py::arg("correlate"))
+      .def("__len__", &tool::Design::runs)
+      .def("__getitem__",
+           [](const tool::Design& points, long run) {
+             if (run < 0 || run >= points.runs()) throw py::index_error();
+             return points.point(run);
+           })
+      .def("__getitem__", [](const tool::Design& points, const py::slice& slice) {
+        std::size_t first = 0, end = 0, step = 0, size = 0;
+        if (!slice.compute(static_cast<std::size_t>(points.runs()), &first, &end, &step, &size)) throw py::error_already_set();
+        std::vector<std::vector<std::string>> chosen;
+        for (; chosen.size() < size; first += step) chosen.push_back(points.point(static_cast<long>(first)));
+        return chosen;
+      });
   module.def("report", &report, py::arg("readings"), py::arg("accuracy"), py::arg("title"), py::arg("certify"), py::arg("precision"), py::arg("progress"));
 }
 

@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <charconv>
+#include <nlohmann/json.hpp>
 #include <string_view>
 
-#include "tools/rheonet/claims.hpp"
+#include "tools/rheonet/summary_json.hpp"
 
 namespace rheonet::python {
 namespace {
@@ -17,21 +18,22 @@ std::string_view take(std::string_view& text, char separator) {
   return part;
 }
 
-py::list claims_of(const Run& run) {
-  py::list result;
-  for (std::size_t k = 0; k < run.summary.findings.size(); ++k) {
-    const Claim& claim = run.scene->claims[k];
-    const Finding& finding = run.summary.findings[k];
-    const tool::ClaimInWords words = tool::in_words(*run.scene, claim, finding);
-    py::dict entry;
-    entry["name"] = words.name;
-    entry["found"] = finding.found;
-    entry["unit"] = tool::unit_of_claim(claim, *run.scene);
-    entry["claimed"] = words.claimed;
-    entry["holds"] = finding.holds;
-    result.append(entry);
+py::object as_python(const nlohmann::ordered_json& value) {
+  if (value.is_object()) {
+    py::dict result;
+    for (const auto& [name, entry] : value.items()) result[py::str(name)] = as_python(entry);
+    return result;
   }
-  return result;
+  if (value.is_array()) {
+    py::list result;
+    for (const auto& entry : value) result.append(as_python(entry));
+    return result;
+  }
+  if (value.is_string()) return py::str(value.get_ref<const std::string&>());
+  if (value.is_boolean()) return py::bool_(value.get<bool>());
+  if (value.is_number_integer()) return py::int_(value.get<long>());
+  if (value.is_number()) return py::float_(value.get<double>());
+  return py::none();
 }
 
 }  // namespace
@@ -59,50 +61,12 @@ py::list events_of(const Run& run) {
   return result;
 }
 
-py::dict summary_of(const Run& run) {
-  const Summary& s = run.summary;
-  py::dict result, switched;
-  for (const Summary::Switched& element : s.switched) switched[py::str(element.element)] = element.times;
-  result["rows"] = run.times.size();
-  result["unknowns"] = s.unknowns;
-  result["parts"] = s.parts;
-  result["steps"] = s.steps;
-  result["arc_steps"] = s.arc_steps;
-  result["rejected_steps"] = s.rejected_steps;
-  result["residual_evaluations"] = s.residual_evaluations;
-  result["jacobian_evaluations"] = s.jacobian_evaluations;
-  result["restarts"] = s.restarts;
-  result["events"] = s.events;
-  result["switched"] = switched;
-  result["energy_supplied"] = s.supplied;
-  result["energy_stored"] = s.stored;
-  result["energy_dissipated"] = s.dissipated;
-  result["energy_missing"] = s.missing;
-  result["ended"] = s.ended;
-  result["wall_seconds"] = s.wall_seconds;
-  result["cpu_seconds"] = s.cpu_seconds;
-  result["notes"] = s.notes;
-  result["claims"] = claims_of(run);
-  return result;
+py::object summary_of(const Run& run) {
+  return as_python(tool::summary_json(*run.scene, run.summary, static_cast<long>(run.times.size())));
 }
 
 py::object certificate_of(const Run& run) {
-  if (!run.certificate) return py::none();
-  const Certificate& c = *run.certificate;
-  py::dict result, errors;
-  for (std::size_t k = 0; k < c.errors.size() && k < run.scene->records.size(); ++k) {
-    py::dict error;
-    error["largest"] = c.errors[k].largest;
-    error["time"] = c.errors[k].time;
-    error["relative"] = c.errors[k].relative();
-    errors[py::str(run.scene->records[k].path)] = error;
-  }
-  result["holds"] = c.holds;
-  result["errors"] = errors;
-  result["obstacle"] = c.obstacle;
-  result["runs"] = c.runs;
-  result["cpu_seconds"] = c.cpu_seconds;
-  return result;
+  return run.certificate ? as_python(tool::certificate_json(*run.scene, *run.certificate)) : py::none();
 }
 
 }  // namespace rheonet::python

@@ -36,7 +36,7 @@ py::array_t<double> view(const std::vector<double>& column, const py::handle& ow
 
 /// Results as Python objects: a list of tuples (time, element, event, direction), and dictionaries.
 py::list events_of(const Run& run);
-py::dict summary_of(const Run& run);
+py::object summary_of(const Run& run);
 py::object certificate_of(const Run& run);
 
 }  // namespace rheonet::python

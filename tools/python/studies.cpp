@@ -12,7 +12,6 @@
 #include "tools/python/watch.hpp"
 #include "tools/rheonet/arguments.hpp"
 #include "tools/rheonet/compare_report.hpp"
-#include "tools/rheonet/design.hpp"
 #include "tools/rheonet/effects_report.hpp"
 #include "tools/rheonet/precision_report.hpp"
 #include "tools/rheonet/pricing.hpp"
@@ -112,20 +111,17 @@ py::array_t<double> Comparison::rows(std::size_t pairing) const {
 
 std::string Comparison::text() const { return tool::describe(compared_); }
 
-std::vector<std::vector<std::string>> drawn_points(const std::vector<std::string>& vary, const std::string& kind, long count, std::uint64_t seed,
-                                                   const std::vector<std::string>& correlate) {
+tool::Design drawn_points(const std::vector<std::string>& vary, const std::string& kind, long count, std::uint64_t seed,
+                          const std::vector<std::string>& correlate) {
   tool::SweepArguments sweep;
   sweep.vary = vary;
   sweep.correlate = correlate;
   sweep.seed = seed;
   (kind == "random" ? sweep.random : kind == "latin" ? sweep.latin : sweep.sobol) = count;
-  const auto read = tool::Design::read(sweep);
+  auto read = tool::Design::read(sweep);
   if (const auto* wrong = std::get_if<tool::NoVariation>(&read))
     throw std::invalid_argument(wrong->hint.empty() ? wrong->message : wrong->message + "\n  " + wrong->hint);
-  const tool::Design& design = std::get<tool::Design>(read);
-  std::vector<std::vector<std::string>> points;
-  for (long run = 0; run < design.runs(); ++run) points.push_back(design.point(run));
-  return points;
+  return std::get<tool::Design>(std::move(read));
 }
 
 std::optional<std::pair<double, bool>> evaluated(const std::string& text) {

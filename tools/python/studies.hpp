@@ -14,6 +14,7 @@
 #include "core/result/work_precision.hpp"
 #include "tools/python/reading.hpp"
 #include "tools/rheonet/comparison.hpp"
+#include "tools/rheonet/design.hpp"
 
 /// The studies of the commands `compare`, `effects`, `precision` and `run --sensitivities` for Python. They raise rheonet.SimulationError if a
 /// scene cannot be simulated, and ValueError if scenes cannot be compared.
@@ -39,10 +40,10 @@ class Comparison {
   tool::Compared compared_;
 };
 
-/// The points of `rheonet sweep` with --random, --latin or --sobol: for each run its values as text. `vary` and `correlate` have the words
-/// after these options of the command. Throws std::invalid_argument for words that the command refuses.
-std::vector<std::vector<std::string>> drawn_points(const std::vector<std::string>& vary, const std::string& kind, long count, std::uint64_t seed,
-                                                   const std::vector<std::string>& correlate);
+/// The points of `rheonet sweep` with --random, --latin or --sobol. `vary` and `correlate` have the words after these options of the
+/// command. Throws std::invalid_argument for words that the command refuses.
+tool::Design drawn_points(const std::vector<std::string>& vary, const std::string& kind, long count, std::uint64_t seed,
+                          const std::vector<std::string>& correlate);
 
 /// The number in a text without reference to other values, in SI, and whether it has a unit; absent if the text is no number.
 std::optional<std::pair<double, bool>> evaluated(const std::string& text);

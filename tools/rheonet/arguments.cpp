@@ -223,6 +223,8 @@ struct CommandLine {
         ->type_name("FILE");
     run->add_option("--events", arguments.events, "file for the list of events: time, element, event, direction")
         ->type_name("FILE");
+    run->add_option("--summary", arguments.summary, "JSON file for the summary: cost, energies, claims, certificate")
+        ->type_name("FILE");
     run->add_option("--plot", arguments.figure, "draw the records (as [plot] says, else over time) into an .svg or a .png")
         ->type_name("FILE");
     add_accuracy(run);

@@ -31,6 +31,7 @@ struct Arguments {
   std::string overlay;                 ///< File for the data of `compare`, `precision` and `effects`; "": none.
   std::string output = "-";            ///< Output file; "-": standard output.
   std::string events;                  ///< File for the events; "": none.
+  std::string summary;                 ///< JSON file for the summary of `run`; "": none.
   std::string figure;                  ///< File for the figure of `run` or `precision`; "": none.
   std::vector<std::string> overrides;  ///< PATH=VALUE.
   std::optional<double> accuracy;

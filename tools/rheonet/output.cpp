@@ -293,6 +293,13 @@ bool can_be_table(const std::string& path, const char* option, bool any_format) 
   say("error: `{} {}`: rows are written as {}, and `{}` is another format\n"
       "  name the file .csv (or .txt, .dat, or without an ending){}\n", option, printable(path), any_format ? "CSV, NetCDF or MAT" : "CSV", printable(ending),
       any_format ? ", .nc or .mat" : "");
+  if (any_format && ending == ".json") say("  JSON holds summaries: `run --summary FILE.json`, `sweep --statistics FILE.json`\n");
+  return false;
+}
+
+bool can_be_json(const std::string& path, const char* option) {
+  if (path.empty() || path == "-" || path.ends_with(".json")) return true;
+  say("error: `{} {}` is not a .json\n", option, printable(path));
   return false;
 }
 

@@ -93,4 +93,7 @@ bool write_all(Output& output, const std::string& text, const char* row);
 /// if the ending is that of another format. `option` is the option that names the file: "--output".
 bool can_be_table(const std::string& path, const char* option, bool any_format = false);
 
+/// Whether JSON can be written to a file of this name ("": no file is asked for). Prints an error if the ending is not .json.
+bool can_be_json(const std::string& path, const char* option);
+
 }  // namespace rheonet::tool

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <iterator>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <thread>
 #include <system_error>
@@ -26,6 +27,7 @@
 #include "tools/rheonet/say.hpp"
 #include "tools/rheonet/sensitivity_rows.hpp"
 #include "tools/rheonet/summary.hpp"
+#include "tools/rheonet/summary_json.hpp"
 
 namespace rheonet::tool {
 namespace {
@@ -42,7 +44,7 @@ bool same_file(const std::string& path, const std::string& other) {
 /// Whether two outputs go to the same file; prints an error if so.
 bool write_to_one_file(const Arguments& arguments) {
   const std::pair<const char*, const std::string&> outputs[] = {
-      {"--output", arguments.output}, {"--events", arguments.events}, {"--plot", arguments.figure}};
+      {"--output", arguments.output}, {"--events", arguments.events}, {"--plot", arguments.figure}, {"--summary", arguments.summary}};
   for (std::size_t i = 0; i < std::size(outputs); ++i)
     for (std::size_t k = 0; k < i; ++k) {
       if (!same_file(outputs[k].second, outputs[i].second)) continue;
@@ -56,11 +58,11 @@ bool write_to_one_file(const Arguments& arguments) {
 
 /// The output files of a run.
 struct Outputs {
-  std::unique_ptr<Output> rows, events;  ///< `events` is nullptr if not requested.
+  std::unique_ptr<Output> rows, events, summary;  ///< The last two are nullptr if not requested.
 
   std::string kept() const { return rows->kept("row") + (events ? events->kept("event") : ""); }
 
-  /// Closes both. Returns false, after an error message, if a write failed.
+  /// Closes rows and events. Returns false, after an error message, if a write failed.
   bool close() const {
     const int errors[] = {rows->close(), events ? events->close() : 0};
     if (errors[0] == 0 && errors[1] == 0) return true;
@@ -69,7 +71,7 @@ struct Outputs {
     return false;
   }
 
-  /// Closes both and leaves existing files unchanged.
+  /// Closes rows and events and leaves existing files unchanged.
   void abandon() const {
     rows->abandon();
     if (events) events->abandon();
@@ -109,9 +111,10 @@ ExitStatus run_scene(const Arguments& arguments) {
   const bool drawn = !arguments.figure.empty();
   if (drawn && !can_be_figure(arguments.figure, "--plot")) return wrong_input;
   if (is_source(arguments.output, "--output", read.sources) || is_source(arguments.events, "--events", read.sources) ||
-      is_source(arguments.figure, "--plot", read.sources))
+      is_source(arguments.figure, "--plot", read.sources) || is_source(arguments.summary, "--summary", read.sources))
     return wrong_input;
-  if (!can_be_table(arguments.output, "--output", true) || !can_be_table(arguments.events, "--events")) return wrong_input;
+  if (!can_be_table(arguments.output, "--output", true) || !can_be_table(arguments.events, "--events") || !can_be_json(arguments.summary, "--summary"))
+    return wrong_input;
   if (!can_be_multiplied(arguments)) return wrong_input;
 
   const std::atomic<bool>& interrupted = end_on_signals();
@@ -123,6 +126,10 @@ ExitStatus run_scene(const Arguments& arguments) {
   if (!arguments.events.empty()) {
     outputs.events = open_output(arguments.events, writing);
     if (!outputs.events) return wrong_input;
+  }
+  if (!arguments.summary.empty()) {
+    outputs.summary = open_output(arguments.summary, Output::Writing::complete);
+    if (!outputs.summary) return wrong_input;
   }
   if (write_to_one_file(arguments)) return wrong_input;
 
@@ -152,6 +159,14 @@ ExitStatus run_scene(const Arguments& arguments) {
     if (!looked_into && summary.events > 0) draw_again(*read.scene, read.presentation, settings, figure);
     progress.erase();
     if (!outputs.close() || (figure && figure->write(arguments.figure) != done)) return not_simulated;
+    if (outputs.summary) {
+      nlohmann::ordered_json json{{"program", "rheonet " RHEONET_VERSION}, {"scene", arguments.scene}, {"title", read.scene->title},
+                                  {"start", read.scene->start}, {"stop", read.scene->stop}, {"accuracy", read.scene->accuracy}};
+      json.update(summary_json(*read.scene, summary, outputs.rows->rows()));
+      if (certificate) json["certificate"] = certificate_json(*read.scene, *certificate);
+      if (!derivatives.empty()) json["sensitivities"] = sensitivities_json(*read.scene, derivatives, arguments.sensitivities);
+      if (!write_all(*outputs.summary, json.dump(2) + '\n', "line")) return not_simulated;
+    }
     if (!arguments.quiet) {
       say("{}: {:g} s to {:g} s\n{}", printable(arguments.scene), read.scene->start, read.scene->stop,
           describe(summary, outputs.rows->rows(), outputs.rows->name()));

@@ -26,20 +26,21 @@ BlockSums sum_of(const std::vector<BlockSums>& blocks) {
 
 /// An estimate from the sums of all blocks, with its standard error from the delete-a-group jackknife, which leaves out one block after
 /// the other.
-Estimate jackknifed(const std::vector<BlockSums>& blocks, const std::function<double(const BlockSums&)>& estimate) {
+Estimate jackknifed(const std::vector<BlockSums>& blocks, const std::function<BlockSums::Sum(const BlockSums&)>& estimate) {
+  using Sum = BlockSums::Sum;
   const BlockSums all = sum_of(blocks);
-  std::vector<double> without;
+  std::vector<Sum> without;
   for (const BlockSums& block : blocks) {
     if (block.points == 0) continue;
     BlockSums others = all;
     others.add(block, -1);
     without.push_back(estimate(others));
   }
-  const auto count = static_cast<double>(without.size());
-  const double mean = std::accumulate(without.begin(), without.end(), 0.0) / count;
-  double squares = 0;
-  for (const double value : without) squares += (value - mean) * (value - mean);
-  return {estimate(all), std::sqrt((count - 1) / count * squares)};
+  const auto count = static_cast<Sum>(without.size());
+  const Sum mean = std::accumulate(without.begin(), without.end(), Sum()) / count;
+  Sum squares = 0;
+  for (const Sum value : without) squares += (value - mean) * (value - mean);
+  return {static_cast<double>(estimate(all)), static_cast<double>(std::sqrt((count - 1) / count * squares))};
 }
 
 /// Empirical quantiles, linear between the order statistics (Hyndman and Fan's definition 7), and the ranks that bracket the true
@@ -94,7 +95,7 @@ Statistics::Statistics(const Design& design, const SweepTable& table, std::vecto
   const auto groups = static_cast<std::size_t>(runs_ / group_size_);
   const auto ranges = static_cast<std::size_t>(std::max(0L, group_size_ - 2));
   BlockSums none;
-  none.product = none.difference = none.square = std::vector<double>(ranges, 0.0);
+  none.product = none.difference = none.square = std::vector<BlockSums::Sum>(ranges, 0);
   for (Accumulator& accumulator : accumulators_) {
     accumulator.blocks.assign(std::min(most_blocks, groups), BlockSums());
     if (ranges > 0) accumulator.whole.assign(accumulator.blocks.size(), none);
@@ -136,7 +137,7 @@ void Statistics::take_group() {
     if (first == group_.begin() + static_cast<std::ptrdiff_t>(independent)) continue;
     if (!a.origin) a.origin = (*first)[k];
     const std::size_t block = number * a.blocks.size() / static_cast<std::size_t>(runs_ / group_size_);
-    const auto relative = [&](std::size_t run) { return group_[run][k] - *a.origin; };
+    const auto relative = [&](std::size_t run) { return BlockSums::Sum(group_[run][k]) - *a.origin; };
     const auto add_values = [&](BlockSums& sums) {
       sums.points += 1;
       for (std::size_t run = 0; run < independent; ++run) {
@@ -153,7 +154,7 @@ void Statistics::take_group() {
     BlockSums& sums = a.whole[block];
     add_values(sums);
     for (std::size_t range = 0; range < sums.product.size(); ++range) {
-      const double changed = relative(range + 2) - relative(0);
+      const BlockSums::Sum changed = relative(range + 2) - relative(0);
       sums.product[range] += relative(1) * changed;
       sums.difference[range] += changed;
       sums.square[range] += changed * changed;
@@ -177,7 +178,8 @@ std::vector<MeasureStatistics> Statistics::results() {
     const BlockSums all_values = sum_of(a.blocks);
     if (all_values.points < fewest) continue;
     s.deviation = jackknifed(a.blocks, [](const BlockSums& sums) { return std::sqrt(sums.variance()); });
-    s.mean = Estimate{*a.origin + all_values.of_values / all_values.values, s.deviation->value / std::sqrt(all_values.values)};
+    s.mean = Estimate{static_cast<double>(*a.origin + all_values.of_values / all_values.values),
+                      static_cast<double>(s.deviation->value / std::sqrt(all_values.values))};
     if (a.whole.empty()) continue;
     const BlockSums whole = sum_of(a.whole);
     s.groups = std::lround(whole.points);

@@ -37,12 +37,14 @@ struct MeasureStatistics {
   long groups = 0;  ///< Number of these groups.
 };
 
-/// Sums over a block of points. Values are relative to the very first value, so that a large mean causes no cancellation.
+/// Sums over a block of points. Values are relative to the very first value, so that a large mean causes no cancellation. The squares
+/// of values beyond 1e154, and below 1e-154, are in the range of a `long double`.
 struct BlockSums {
-  double points = 0, values = 0, of_values = 0, of_squares = 0;
-  std::vector<double> product, difference, square;  ///< For each range; see `first_order` and `total`.
+  using Sum = long double;
+  Sum points = 0, values = 0, of_values = 0, of_squares = 0;
+  std::vector<Sum> product, difference, square;  ///< For each range; see `first_order` and `total`.
 
-  void add(const BlockSums& other, double sign) {
+  void add(const BlockSums& other, Sum sign) {
     points += sign * other.points;
     values += sign * other.values;
     of_values += sign * other.of_values;
@@ -53,13 +55,11 @@ struct BlockSums {
       square[k] += sign * other.square[k];
     }
   }
-  double variance() const { return std::max(0.0, (of_squares - of_values * of_values / values) / (values - 1)); }
+  Sum variance() const { return std::max<Sum>(0, (of_squares - of_values * of_values / values) / (values - 1)); }
   /// Saltelli et al. (Computer Physics Communications 181, 2010), table 2, (b), with centred values.
-  double first_order(std::size_t range) const {
-    return (product[range] - of_values / values * difference[range]) / points / variance();
-  }
+  Sum first_order(std::size_t range) const { return (product[range] - of_values / values * difference[range]) / points / variance(); }
   /// Jansen (Computer Physics Communications 117, 1999): table 2, (f), of the same paper.
-  double total(std::size_t range) const { return square[range] / (2 * points) / variance(); }
+  Sum total(std::size_t range) const { return square[range] / (2 * points) / variance(); }
 };
 
 /// Collects the statistics of a sweep's measures from its rows, one after the other, in constant memory.

@@ -268,8 +268,6 @@ std::optional<NoVariation> contradiction(const Arguments& arguments, const Desig
   if (script && merges) return exclude(engine, "--merge");
   if (script && arguments.output == "-") return NoVariation{fmt::format("`{}` needs the file for the rows of the whole sweep", engine), "-o sweep.csv"};
   if (s.statistics.empty()) return {};
-  if (s.statistics != "-" && !s.statistics.ends_with(".json"))
-    return NoVariation{fmt::format("`--statistics {}`: statistics are written as JSON", s.statistics), "name the file .json"};
   if (s.shard) return NoVariation{"`--statistics` is of all runs, not of a shard", "give it to `--merge`"};
   if (s.measures.empty()) return NoVariation{"`--statistics` is of measures, and none is asked for", "--measure 'max(k1.force)'"};
   if (!design.has_distribution()) return NoVariation{"a grid of values has no distribution for `--statistics`", "draw points: --random 1000"};
@@ -288,7 +286,7 @@ ExitStatus sweep_scene(const Arguments& arguments) {
   if (!sweep.begin()) return wrong_input;
   if (is_source(arguments.output, "--output", sweep.sources()) || !can_be_table(arguments.output, "--output", true)) return wrong_input;
   const SweepArguments& options = arguments.sweep;
-  if (is_source(options.statistics, "--statistics", sweep.sources())) return wrong_input;
+  if (is_source(options.statistics, "--statistics", sweep.sources()) || !can_be_json(options.statistics, "--statistics")) return wrong_input;
   for (const auto& [option, file] : {std::pair{"--output", &arguments.output}, {"--statistics", &options.statistics}}) {
     std::error_code failed;
     if (options.list.empty() || !std::filesystem::equivalent(options.list, *file, failed)) continue;

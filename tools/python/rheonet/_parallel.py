@@ -15,8 +15,9 @@ LEAST_SHARE = 100  # of that time a task simulates at least as much
 SCHEDULED_AT_ONCE = 10_000  # tasks that the scheduler holds: beyond it, tasks are longer
 
 
-def in_threads(function, items, jobs):
-    """The values of function(item, progress) for each item, in their order. The first error ends the runs that `progress` is given to."""
+def in_threads(function, items, jobs, keep):
+    """Calls keep(number, function(item, progress)) for each item, in this thread and as they finish. The first error ends the runs that
+    `progress` is given to."""
     numbers, finished, stopped = itertools.count(), queue.SimpleQueue(), threading.Event()
 
     def progress(_):
@@ -32,7 +33,6 @@ def in_threads(function, items, jobs):
 
     # Not a ThreadPoolExecutor: Python waits for its threads at exit, and so for a sweep in a daemon thread.
     threads = [threading.Thread(target=work, daemon=True) for _ in range(min(jobs or os.cpu_count(), len(items)))]
-    values = [None] * len(items)
     try:
         for thread in threads:
             thread.start()
@@ -40,8 +40,7 @@ def in_threads(function, items, jobs):
             number, value, error = finished.get()
             if error is not None:
                 raise error
-            values[number] = value
-        return values
+            keep(number, value)
     finally:
         stopped.set()
         for thread in threads:
@@ -68,22 +67,25 @@ def _rows(records, times, units):
     return rows
 
 
-def on_dask(client, function, items):
-    """The values of function(item) for each item, in their order, computed by the workers of `client`, a dask.distributed.Client. The
-    first item is computed here, to find how many of the others make a task long enough. The first error ends all tasks."""
+def on_dask(client, function, items, keep):
+    """Calls keep(number, function(item)) for each item, computed by the workers of `client`, a dask.distributed.Client, as they finish.
+    The first item is computed here, to find how many of the others make a task long enough. The first error ends all tasks."""
+    import distributed
+
     start = time.perf_counter()
-    results = [function(items[0])]
+    keep(0, function(items[0]))
     seconds = max(time.perf_counter() - start, 1e-6)
-    rest = items[1:]
-    size = max(math.ceil(LEAST_SHARE * TASK_COST / seconds), math.ceil(len(rest) / SCHEDULED_AT_ONCE), 1)
-    groups = [rest[k : k + size] for k in range(0, len(rest), size)]
+    rest = len(items) - 1
+    size = max(math.ceil(LEAST_SHARE * TASK_COST / seconds), math.ceil(rest / SCHEDULED_AT_ONCE), 1)
+    groups = [items[first : first + size] for first in range(1, len(items), size)]
     tasks = client.map(_group, groups, function=function, pure=False)
+    first_of = {task.key: 1 + number * size for number, task in enumerate(tasks)}
     try:
-        for group in client.gather(tasks):
-            results += group
+        for task, values in distributed.as_completed(tasks, with_results=True):
+            for number, value in enumerate(values, first_of[task.key]):
+                keep(number, value)
     finally:
         client.cancel(tasks)
-    return results
 
 
 def _group(items, function):

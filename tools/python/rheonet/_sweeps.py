@@ -24,12 +24,15 @@ def sweep(scene, changes, measure, accuracy, jobs, client, on_error):
         raise ValueError("a sweep needs at least one value of each parameter")
     coordinates = {path: coordinate(path, axis) for path, axis in zip(paths, values)}
 
+    for value in itertools.chain(*values):
+        setting(value)  # refuses, before any run, what a netlist cannot hold
+
     runs = _Runs(scene, paths, combinations, measures, accuracy, jobs, client, on_error)
     if measures:
         variables = runs.measured(paths, shape)
     else:
-        coordinates["time"] = ("time", runs.first.time, {"units": "s"})
-        variables = runs.rows(paths, shape)
+        times, variables = runs.rows(paths, shape)
+        coordinates["time"] = ("time", times, {"units": "s"})
     return xarray.Dataset(variables | runs.errors(paths, shape, variables), coordinates, {"title": scene.title})
 
 
@@ -44,8 +47,8 @@ def sample(scene, values, count, measure, kind, seed, correlations, accuracy, jo
         raise ValueError("a Monte Carlo needs a distribution of at least one value, and at least one measure")
     vary = [f"{path}={_arguments.text(f'the distribution of {path!r}', values[path])}" for path in paths]
     count, seed = _arguments.count("count", count), _arguments.count("seed", seed, least=0, most=2**64 - 1)
-    points = _rheonet.drawn_points(vary, kind, count, seed, _arguments.correlations(correlations))
-    coordinates = {path: coordinate("run", [point[k] for point in points]) for k, path in enumerate(paths)}
+    points = _rheonet.DrawnPoints(vary, kind, count, seed, _arguments.correlations(correlations))
+    coordinates = {path: _drawn(points, k) for k, path in enumerate(paths)}
     coordinates["run"] = np.arange(1, len(points) + 1)
 
     runs = _Runs(scene, paths, points, measures, accuracy, jobs, client, on_error)
@@ -53,12 +56,20 @@ def sample(scene, values, count, measure, kind, seed, correlations, accuracy, jo
     return xarray.Dataset(variables | runs.errors(["run"], [len(points)], variables), coordinates, {"title": scene.title})
 
 
+def _drawn(points, place):
+    """The coordinate of a drawn value, from one block of points after the other, because texts need more memory than numbers."""
+    blocks = [coordinate("run", [point[place] for point in points[first : first + 4096]]) for first in range(0, len(points), 4096)]
+    if any(block[2:] != blocks[0][2:] or isinstance(block[1][0], str) for block in blocks):
+        return coordinate("run", [point[place] for point in points])
+    return ("run", np.concatenate([block[1] for block in blocks]), *blocks[0][2:])
+
+
 def _measures(measure):
     return [] if measure is None else _arguments.texts("measure", measure, ["max(k1.force)"])
 
 
 class _Runs:
-    """The outcome of a run at each point: its measures, its rows, or the error that it failed with."""
+    """The outcome of a run at each point: its measures, its rows, or the reason why it failed."""
 
     def __init__(self, scene, paths, points, measures, accuracy, jobs, client, on_error):
         if on_error not in ("nan", "raise"):
@@ -68,73 +79,80 @@ class _Runs:
         if client is not None:
             _arguments.client(client)
         self._points, self._measures = points, measures
-        settings = [tuple(map(setting, point)) for point in points]  # before any run: refuses what a netlist cannot hold
-        items = list(zip(points, settings))
+        self._found = np.full((len(measures), len(points)), np.nan)
+        self._units = None
+        self._results = {}
+        self._reasons = {}
+        self._first_error = None
         run = functools.partial(_outcome, scene, paths, measures, accuracy, on_error == "raise", client is not None)
-        self._outcomes = _parallel.in_threads(run, items, jobs) if client is None else _parallel.on_dask(client, run, items)
-        failures = [outcome for outcome in self._outcomes if isinstance(outcome, Exception)]
-        if len(failures) == len(points):
-            if len(points) > 1:
-                failures[0].add_note(f"and all other runs of {len(points)} failed as well")
-            raise failures[0]
-        if failures:
-            place = self._outcomes.index(failures[0])
-            warnings.warn(
-                f"{len(failures)} of {len(points)} runs failed, as the one with {dict(zip(paths, points[place]))}: {failures[0].message}; "
-                "the variable `error` has the reasons",
-                RuntimeWarning,
-                stacklevel=4,
-            )
-        self._failed = bool(failures)
-        self.first = next(outcome for outcome in self._outcomes if not isinstance(outcome, Exception))
+        if client is None:
+            _parallel.in_threads(run, points, jobs, self._keep)
+        else:
+            _parallel.on_dask(client, run, points, self._keep)
+        self._tell_failures(paths)
+
+    def _keep(self, number, outcome):
+        if isinstance(outcome, Exception):
+            if self._first_error is None or number < min(self._reasons):
+                self._first_error = outcome  # of the others only the message is kept, for an error may hold rows
+            self._reasons[number] = outcome.message
+        elif self._measures:
+            self._found[:, number] = [claim["found"] for claim in outcome]
+            self._units = self._units or [claim["unit"] for claim in outcome]
+        else:
+            self._results[number] = outcome
+
+    def _tell_failures(self, paths):
+        if not self._reasons:
+            return
+        if len(self._reasons) == len(self._points):
+            if len(self._points) > 1:
+                self._first_error.add_note(f"and all other runs of {len(self._points)} failed as well")
+            raise self._first_error
+        warnings.warn(
+            f"{len(self._reasons)} of {len(self._points)} runs failed, as the one with {dict(zip(paths, self._points[min(self._reasons)]))}: "
+            f"{self._first_error.message}; the variable `error` has the reasons",
+            RuntimeWarning,
+            stacklevel=5,
+        )
 
     def measured(self, dimensions, shape):
-        def found(outcome, k):
-            return np.nan if isinstance(outcome, Exception) else outcome[k]["found"]
-
         return {
-            name: (dimensions, np.reshape([found(outcome, k) for outcome in self._outcomes], shape), {"units": self.first[k]["unit"]})
-            for k, name in enumerate(self._measures)
+            name: (dimensions, np.reshape(found, shape), {"units": unit})
+            for name, found, unit in zip(self._measures, self._found, self._units)
         }
 
     def rows(self, dimensions, shape):
-        time_of_first, units = self.first.time, self.first.units
-        place_of_first = self._outcomes.index(self.first)
-        for point, result in zip(self._points, self._outcomes):
-            if isinstance(result, Exception):
-                continue
-            runs = f"the runs {self._points[place_of_first]} and {point}"
-            if list(result.units.items()) != list(units.items()):
+        """The times of the rows, and a variable for each record."""
+        place_of_first = min(self._results)
+        first = self._results[place_of_first]
+        for place, result in sorted(self._results.items()):
+            runs = f"the runs {self._points[place_of_first]} and {self._points[place]}"
+            if list(result.units.items()) != list(first.units.items()):
                 raise ValueError(f"{runs} have different records; give `measure`")
-            if not np.array_equal(result.time, time_of_first):
+            if not np.array_equal(result.time, first.time):
                 raise ValueError(
                     f"the rows of {runs} are at different times; give `measure`, or let `simulate.output` and `simulate.stop` be the same in all runs"
                 )
-        nothing = np.full(len(time_of_first), np.nan)
-
-        def rows_of(outcome, name):
-            return nothing if isinstance(outcome, Exception) else outcome[name]
-
-        return {
-            name: (
-                [*dimensions, "time"],
-                np.reshape([rows_of(outcome, name) for outcome in self._outcomes], [*shape, len(time_of_first)]),
-                {"units": unit},
-            )
-            for name, unit in units.items()
-        }
+        variables = {}
+        for name, unit in first.units.items():
+            values = np.full((len(self._points), len(first.time)), np.nan)
+            for place, result in self._results.items():
+                values[place] = result[name]
+            variables[name] = ([*dimensions, "time"], np.reshape(values, [*shape, len(first.time)]), {"units": unit})
+        return first.time, variables
 
     def errors(self, dimensions, shape, taken):
         """A variable with the reason why each run failed, if any did."""
-        if not self._failed:
+        if not self._reasons:
             return {}
-        reasons = [outcome.message if isinstance(outcome, Exception) else "" for outcome in self._outcomes]
+        reasons = np.full(len(self._points), "", dtype=object)  # not of a fixed width, which each run would take
+        reasons[list(self._reasons)] = list(self._reasons.values())
         return {free_name("error", taken): (dimensions, np.reshape(reasons, shape))}
 
 
-def _outcome(scene, paths, measures, accuracy, raising, portable, item, progress=None):
-    point, settings = item
-    changes = {**scene._changes, **dict(zip(paths, settings))}
+def _outcome(scene, paths, measures, accuracy, raising, portable, point, progress=None):
+    changes = {**scene._changes, **dict(zip(paths, map(setting, point)))}
     reading = scene._source.read(_runs.overrides(changes), measures, _runs.folders_of_laws(), [], False)
     try:
         result = _runs.run(type(scene)(scene._source, changes, _runs.complete(reading)), accuracy, progress=progress)
