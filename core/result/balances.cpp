@@ -110,47 +110,62 @@ void Balances::find_nodes(const Scene& scene) {
   }
 }
 
-std::optional<Imbalance> Balances::raise(const Trajectory& trajectory, double allowed, std::vector<RecordError>& errors) const {
+std::vector<Balances::Sum> Balances::sums(const RowStore& rows, double allowed, const std::vector<RecordError>& errors) const {
+  std::vector<Sum> sums(nodes_.size());
+  if (nodes_.empty()) return sums;
+  RowStore::Reader first = rows.read();
+  while (const double* const row = first.next()) {
+    for (std::size_t n = 0; n < nodes_.size(); ++n) {
+      for (const Term& term : nodes_[n].terms) sums[n].largest_force = std::max(sums[n].largest_force, std::abs(term.sign * row[1 + term.record]));
+    }
+  }
+  for (std::size_t n = 0; n < nodes_.size(); ++n) sums[n].beyond.assign(nodes_[n].forces.size() + nodes_[n].movements.size(), not_given);
+  RowStore::Reader second = rows.read();
+  while (const double* const row = second.next()) {
+    for (std::size_t n = 0; n < nodes_.size(); ++n) {
+      const Node& node = nodes_[n];
+      Sum& sum = sums[n];
+      double left = 0;
+      for (const Term& term : node.terms) left += term.sign * row[1 + term.record];
+      left = std::abs(left);
+      const double rounding = numerics::balanced_force_ulps * std::numeric_limits<double>::epsilon() * sum.largest_force;
+      if (left <= rounding) continue;
+      for (std::size_t k = 0; k < sum.beyond.size(); ++k) {
+        const bool force = k < node.forces.size();
+        const double limit = force ? allowed * errors[node.forces[k]].scale / own(node.forces[k]) : allowed * sum.largest_force;
+        if (std::isnan(sum.beyond[k]) && left > limit) sum.beyond[k] = row[0];
+      }
+      if (left <= sum.largest) continue;
+      sum.largest = left;
+      sum.time = row[0];
+    }
+  }
+  return sums;
+}
+
+std::optional<Imbalance> Balances::raise(const RowStore& rows, double allowed, std::vector<RecordError>& errors) const {
   std::optional<Imbalance> worst;
   double most = allowed;
-  for (const Node& node : nodes_) {
-    double largest = 0, sum = 0, time = 0;
-    for (const std::vector<double>& row : trajectory.rows) {
-      for (const Term& term : node.terms) largest = std::max(largest, std::abs(term.sign * row[term.record]));
-    }
-    const double rounding = numerics::balanced_force_ulps * std::numeric_limits<double>::epsilon() * largest;
-    // The largest imbalance, and the first time at which it exceeds the limit of each record.
-    std::vector<double> first(node.forces.size() + node.movements.size(), not_given);
-    // The sum is in common units, the error of a record in its own unit.
-    const auto own = [&](std::size_t record) { return std::abs(scene_.records[record].factor); };
-    const auto allows = [&](std::size_t i) {
-      return i < node.forces.size() ? allowed * errors[node.forces[i]].scale / own(node.forces[i]) : allowed * largest;
-    };
-    for (std::size_t i = 0; i < trajectory.rows.size(); ++i) {
-      double left = 0;
-      for (const Term& term : node.terms) left += term.sign * trajectory.rows[i][term.record];
-      left = std::abs(left);
-      if (left <= rounding) continue;
-      for (std::size_t k = 0; k < first.size(); ++k) {
-        if (std::isnan(first[k]) && left > allows(k)) first[k] = trajectory.times[i];
-      }
-      if (left <= sum) continue;
-      sum = left;
-      time = trajectory.times[i];
-    }
-    if (sum == 0) continue;
-    for (std::size_t k = 0; k < first.size(); ++k) {
+  const std::vector<Sum> all = sums(rows, allowed, errors);
+  for (std::size_t n = 0; n < nodes_.size(); ++n) {
+    const Node& node = nodes_[n];
+    const Sum& sum = all[n];
+    if (sum.largest == 0) continue;
+    for (std::size_t k = 0; k < sum.beyond.size(); ++k) {
       const bool force = k < node.forces.size();
       RecordError& error = errors[force ? node.forces[k] : node.movements[k - node.forces.size()]];
-      const double off = force ? sum * own(node.forces[k]) : sum / largest * error.scale;
-      const bool sizeless = off > error.scale / 2 && std::max(off, error.scale) <= numerics::sizeless_record * allowed * largest * (force ? own(node.forces[k]) : 1);
+      const double off = force ? sum.largest * own(node.forces[k]) : sum.largest / sum.largest_force * error.scale;
+      const double dead_band = numerics::sizeless_record * allowed * sum.largest_force * (force ? own(node.forces[k]) : 1);
+      const bool sizeless = off > error.scale / 2 && std::max(off, error.scale) <= dead_band;
       if (off <= error.largest || (force && sizeless)) continue;
-      error.beyond = std::fmin(error.beyond, first[k]);
+      error.beyond = std::fmin(error.beyond, sum.beyond[k]);
       error.largest = off;
-      error.time = time;
+      error.time = sum.time;
       if (error.relative() <= most) continue;
       most = error.relative();
-      worst = {scene_.nodes[at(node.id)].name, node.id, {}, sum * own_unit(Quantity::force, std::abs(scene_.nodes[at(node.id)].scale)), largest * own_unit(Quantity::force, std::abs(scene_.nodes[at(node.id)].scale)), time};
+      const SceneNode& place = scene_.nodes[at(node.id)];
+      const double newton = own_unit(Quantity::force, std::abs(place.scale));
+      worst = {place.name, node.id, {}, sum.largest * newton, sum.largest_force * newton, sum.time};
       for (const Term& term : node.terms) worst->elements.push_back(scene_.elements[at(scene_.records[term.record].index)].name);
     }
   }

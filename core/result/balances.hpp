@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -33,7 +34,7 @@ class Balances {
   /// Raises the errors of the scene's own records, whose limit is `allowed` (relative), to the imbalances in the rows of a
   /// run of `scene()`. The error of a force is raised to the imbalance, that of a motion to its scale times imbalance /
   /// largest force there. Returns the imbalance behind the largest raised error above `allowed`; absent if there is none.
-  std::optional<Imbalance> raise(const Trajectory& trajectory, double allowed, std::vector<RecordError>& errors) const;
+  std::optional<Imbalance> raise(const RowStore& rows, double allowed, std::vector<RecordError>& errors) const;
 
  private:
   struct Term { std::size_t record; double sign; };
@@ -43,7 +44,16 @@ class Balances {
     std::vector<std::size_t> forces;     ///< own records that are forces of elements at the node
     std::vector<std::size_t> movements;  ///< own records of the motion of the node, or of an element there
   };
+  /// The sum of the forces at a node, in the rows of a run.
+  struct Sum {
+    double largest_force = 0;
+    double largest = 0, time = 0;  ///< Largest magnitude of the sum, and the time of its row.
+    std::vector<double> beyond;    ///< First time at which it exceeds the limit of each record: those of `forces`, then those of `movements`.
+  };
   void find_nodes(const Scene& scene);
+  /// The sums are in common units, the error of a record in its own unit.
+  double own(std::size_t record) const { return std::abs(scene_.records[record].factor); }
+  std::vector<Sum> sums(const RowStore& rows, double allowed, const std::vector<RecordError>& errors) const;
 
   Scene scene_;
   std::size_t asked_;

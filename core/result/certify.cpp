@@ -33,33 +33,11 @@ void copy(MemoryFile& from, std::FILE* to, const char* what) {
   throw WriteError(std::string(what) + " cannot be written: " + std::strerror(errno));
 }
 
-/// Writes the first columns of rows, the scene's own records, as they come.
-class FirstColumns {
- public:
-  FirstColumns(const Scene& scene, std::FILE* file) : count_(scene.records.size()), csv_(file, "the results") {
-    for (const Record& record : scene.records) names_.push_back(record.path);
-  }
-  void row(double time, const std::vector<double>& values) {
-    if (!std::exchange(begun_, true)) csv_.header(names_);
-    csv_.row(time, first(values));
-  }
-  std::vector<double> first(const std::vector<double>& values) const {
-    return {values.begin(), values.begin() + static_cast<std::ptrdiff_t>(count_)};
-  }
-  void flush() { csv_.flush(); }
-
- private:
-  std::size_t count_;
-  CsvWriter csv_;
-  std::vector<std::string> names_;
-  bool begun_ = false;
-};
-
 /// A run to one tolerance, with its output held back. Its records are the scene's, followed by forces to balance.
 struct Attempt {
   double tolerance = 0;
   ReferenceSolution reference;
-  MemoryFile rows, events;
+  MemoryFile events;
   std::optional<ReferenceSolution> other;  ///< a run of another order, if round-off matters
   std::exception_ptr failure;      ///< null if the run is complete
 
@@ -68,14 +46,27 @@ struct Attempt {
     try {
       copy(events, settings.events, "the events");
     } catch (const WriteError&) {
-      copy(rows, settings.csv, "the results");
+      hand_over_rows(scene, settings);
       throw;
     }
-    copy(rows, settings.csv, "the results");
-    if (!settings.row) return;
-    const FirstColumns own(scene, nullptr);
-    const Trajectory& trajectory = reference.trajectory;
-    for (std::size_t i = 0; i < trajectory.times.size(); ++i) settings.row(trajectory.times[i], own.first(trajectory.rows[i]));
+    hand_over_rows(scene, settings);
+  }
+
+ private:
+  void hand_over_rows(const Scene& scene, const RunSettings& settings) const {
+    if (reference.rows.rows() == 0) return;
+    std::vector<std::string> names;
+    for (const Record& record : scene.records) names.push_back(record.path);
+    CsvWriter csv(settings.csv, "the results");
+    csv.header(names);
+    RowStore::Reader rows = reference.rows.read();
+    std::vector<double> values(names.size());
+    while (const double* const row = rows.next()) {
+      std::copy_n(row + 1, values.size(), values.begin());
+      csv.row(row[0], values);
+      if (settings.row) settings.row(row[0], values);
+    }
+    csv.flush();
   }
 };
 
@@ -104,7 +95,7 @@ class Certification {
     if (!kept_) kept_ = measured;
     kept_->hand_over(scene_, settings_);
     if (kept_->failure) std::rethrow_exception(kept_->failure);
-    result_.summary = kept_->reference.trajectory.summary;
+    result_.summary = kept_->reference.summary;
     if (tighter->failure) say_why(tighter->failure);
     return std::move(result_);
   }
@@ -114,12 +105,12 @@ class Certification {
     auto result = std::make_shared<Attempt>();
     result->tolerance = tolerance;
     settings.tolerance = tolerance;
-    FirstColumns rows(scene_, settings.csv ? result->rows.file() : nullptr);
     settings.csv = nullptr;
-    settings.row = [&rows](double time, const std::vector<double>& values) { rows.row(time, values); };
     settings.events = settings.events ? result->events.file() : nullptr;
     try {
-      result->reference = flushed(rows, [&] { return run_as_reference(balances_.scene(), shift_, std::move(settings)); });
+      run_as_reference(balances_.scene(), shift_, std::move(settings), result->reference);
+    } catch (const WriteError&) {  // of the temporary file
+      throw;
     } catch (const SimulationError&) {
       result->failure = std::current_exception();
     }
@@ -127,19 +118,19 @@ class Certification {
   }
 
   static bool on_arcs(const Attempt& run) {
-    const Summary& summary = run.reference.trajectory.summary;
+    const Summary& summary = run.reference.summary;
     return summary.steps > 0 && summary.arc_steps == summary.steps;
   }
 
   static bool mostly_finest(const Attempt& run) {
-    const Summary& summary = run.reference.trajectory.summary;
+    const Summary& summary = run.reference.summary;
     return 2 * summary.finest_steps > summary.steps;
   }
 
   /// Whether round-off kept the steps of a tighter run from becoming shorter, so that its error is hardly smaller.
   bool alike(const Attempt& measured, const Attempt& tighter) const {
     if (on_arcs(measured)) return false;
-    const double steps = static_cast<double>(measured.reference.trajectory.summary.steps), more = static_cast<double>(tighter.reference.trajectory.summary.steps);
+    const double steps = static_cast<double>(measured.reference.summary.steps), more = static_cast<double>(tighter.reference.summary.steps);
     return numerics::certificate_own_error * std::pow(more, settings_.order) < std::pow(steps, settings_.order);
   }
 
@@ -158,6 +149,8 @@ class Certification {
     std::shared_ptr<Attempt> result = attempt(by_ida, tolerance);
     try {
       result->other = beside.get();
+    } catch (const WriteError&) {
+      throw;
     } catch (const SimulationError&) {
       result->failure = std::current_exception();
     }
@@ -177,7 +170,7 @@ class Certification {
 
   void count_run(const ReferenceSolution& done) {
     ++result_.runs;
-    result_.cpu_seconds += done.trajectory.summary.cpu_seconds;
+    result_.cpu_seconds += done.summary.cpu_seconds;
   }
   void count(const Attempt& done) {
     count_run(done.reference);
@@ -188,18 +181,20 @@ class Certification {
   bool measure(const std::shared_ptr<Attempt>& measured, Attempt& tighter) {
     const ErrorMeasure as_promised{
         .allowed = scene_.accuracy, .shift = shift_, .factor = 1 / (1 - numerics::certificate_own_error)};
-    const Trajectory& trajectory = measured->reference.trajectory;
-    std::vector<RecordError> errors = record_errors(scene_, trajectory, tighter.reference, as_promised);
+    const RowStore& rows = measured->reference.rows;
+    std::vector<RecordError> errors = record_errors(scene_, rows, tighter.reference, as_promised);
     if (!tighter.other && alike(*measured, tighter)) {
       try {
         tighter.other = run_of_other_order(tighter.tolerance);
         count_run(*tighter.other);
+      } catch (const WriteError&) {
+        throw;
       } catch (const SimulationError&) {  // the two runs that are there measure alone
         if (settings_.interrupt && *settings_.interrupt) throw;
       }
     }
-    if (tighter.other) count_other(errors, record_errors(scene_, trajectory, *tighter.other, as_promised), mostly_finest(tighter));
-    const std::optional<Imbalance> imbalance = balances_.raise(trajectory, scene_.accuracy, errors);
+    if (tighter.other) count_other(errors, record_errors(scene_, rows, *tighter.other, as_promised), mostly_finest(tighter));
+    const std::optional<Imbalance> imbalance = balances_.raise(rows, scene_.accuracy, errors);
     const std::size_t worst = worst_of(errors);
     const RecordError error = errors.empty() ? RecordError{} : errors[worst];
     result_.rounds.push_back({tighter.tolerance * numerics::certificate_ratio, worst, error});

@@ -41,8 +41,8 @@ struct Certificate {
 /// in the written rows count as errors, because all runs may share them. Rows, events and calls of `row` come from the run
 /// shown to be accurate; if there is none, from the most accurate run. `tolerance` and `state` of the settings are not used.
 ///
-/// Rows are held in memory until they are accepted. Throws SimulationError like `run` if the scene cannot be simulated; the
-/// rows up to there have then been written.
+/// Until they are accepted, rows are in temporary files, and events in memory. Throws SimulationError like `run` if the scene cannot be
+/// simulated; the rows up to there have then been written.
 Certificate certify(const Scene& scene, const RunSettings& settings = {});
 
 /// The same, to the tolerance of the settings if given. Returns the summary of the kept run, with the CPU time of all runs.

@@ -48,7 +48,7 @@ struct Outcome {
 class SideBySide {
  public:
   SideBySide(const Scene& scene, const Partition& partition, const RunSettings& settings)
-      : scene_(scene), partition_(partition), settings_(settings), outcomes_(partition.subscenes.size()), rows_(widths_of(partition)) {}
+      : scene_(scene), partition_(partition), settings_(settings), outcomes_(partition.subscenes.size()), rows_(widths_of(partition), "the rows of independent parts") {}
 
   Summary go() {
     std::vector<std::string> notes;
@@ -135,13 +135,15 @@ class SideBySide {
     for (const Record& record : scene_.records) names.push_back(record.path);
     CsvWriter csv(settings_.csv, "the results");
     csv.header(names);
+    std::vector<RowStore::Reader> readers;
+    for (std::size_t k = 0; k < outcomes_.size(); ++k) readers.push_back(rows_.read(k));
     std::vector<double> values(scene_.records.size());
     for (std::size_t row = 0; row < count; ++row) {
       std::fill(values.begin(), values.end(), 0.0);
       double time = 0;
       for (std::size_t k = 0; k < outcomes_.size(); ++k) {
         const std::vector<std::size_t>& records = partition_.subscenes[k].records;
-        const double* const part = rows_.next(k);
+        const double* const part = readers[k].next();
         if (k == 0) time = part[0];
         for (std::size_t r = 0; r < records.size(); ++r) values[records[r]] += part[1 + r];
       }

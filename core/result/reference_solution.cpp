@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -75,33 +76,62 @@ class Watch {
   Instants passage_;              ///< a candidate for a steep change, or none
 };
 
-/// Distance of a value from a record at t; near a jump, from the nearer side.
-double distance(double value, double truth, std::size_t column, double t, const Instants& instants, double shift) {
-  double result = std::abs(value - truth);
+/// The instants within `shift` [s] of t.
+std::span<const ReferenceSolution::Instant> instants_near(double t, const Instants& instants, double shift) {
   const auto first = std::lower_bound(instants.begin(), instants.end(), t - shift,
                                       [](const ReferenceSolution::Instant& i, double time) { return i.time < time; });
-  for (auto i = first; i != instants.end() && i->time <= t + shift; ++i) {
-    const double before = i->before[column], after = i->after[column];
-    if (i->lasts > shift || numerics::jump_explains * std::abs(after - before) < result) continue;
-    if (i->lasts > 0 && std::min(before, after) <= value && value <= std::max(before, after)) return 0;
+  auto end = first;
+  while (end != instants.end() && end->time <= t + shift) ++end;
+  return {instants.data() + (first - instants.begin()), static_cast<std::size_t>(end - first)};
+}
+
+/// Distance of a value from a record; near a jump, from the nearer side.
+double distance(double value, double truth, std::size_t column, std::span<const ReferenceSolution::Instant> near, double shift) {
+  double result = std::abs(value - truth);
+  for (const ReferenceSolution::Instant& i : near) {
+    const double before = i.before[column], after = i.after[column];
+    if (i.lasts > shift || numerics::jump_explains * std::abs(after - before) < result) continue;
+    if (i.lasts > 0 && std::min(before, after) <= value && value <= std::max(before, after)) return 0;
     result = std::min({result, std::abs(value - before), std::abs(value - after)});
   }
   return result;
 }
 
-/// Calls visit(row of a, row of b) for the times that both runs have rows at, with the last row at each time.
+/// Reads the last row at each time.
+class LastRows {
+ public:
+  explicit LastRows(const RowStore& rows) : reader_(rows.read()), ahead_(reader_.next()), row_(rows.width()) {}
+
+  /// Goes on to the next time. Returns false after the last one.
+  bool next() {
+    if (!ahead_) return false;
+    do {
+      std::copy_n(ahead_, row_.size(), row_.begin());
+      ahead_ = reader_.next();
+    } while (ahead_ && !(ahead_[0] > row_[0]));
+    return true;
+  }
+  double time() const { return row_[0]; }
+  const double* values() const { return row_.data() + 1; }
+
+ private:
+  RowStore::Reader reader_;
+  const double* ahead_;  ///< The row after `row_`; nullptr if there is none.
+  std::vector<double> row_;
+};
+
+/// Calls visit(time, values of a, values of b) for the times that both runs have rows at, with the last row at each time.
 template <class Visit>
-void visit_common(const Trajectory& a, const Trajectory& b, Visit visit) {
-  const auto last_at_its_time = [](const Trajectory& c, std::size_t row) {
-    return row + 1 == c.times.size() || c.times[row + 1] > c.times[row];
-  };
-  for (std::size_t i = 0, j = 0; i < a.times.size() && j < b.times.size();) {
-    if (a.times[i] < b.times[j] || !last_at_its_time(a, i)) {
-      ++i;
-    } else if (b.times[j] < a.times[i] || !last_at_its_time(b, j)) {
-      ++j;
+void visit_common(const RowStore& a, const RowStore& b, Visit visit) {
+  LastRows first(a), second(b);
+  for (bool both = first.next() && second.next(); both;) {
+    if (first.time() < second.time()) {
+      both = first.next();
+    } else if (second.time() < first.time()) {
+      both = second.next();
     } else {
-      visit(i++, j++);
+      visit(first.time(), first.values(), second.values());
+      both = first.next() && second.next();
     }
   }
 }
@@ -120,33 +150,46 @@ std::vector<double> largest_of_kind(const Scene& scene, const std::vector<double
 
 }  // namespace
 
+void run_as_reference(const Scene& scene, double near, RunSettings settings, ReferenceSolution& result) {
+  result.rows = RowStore({scene.records.size()});
+  Watch watch(scene, near, result);
+  settings.row = [&](double time, const std::vector<double>& values) {
+    watch.row(values);
+    result.rows.add(time, values);
+  };
+  settings.state = [&watch](double time, const std::vector<double>& values) { watch.state(time, values); };
+  result.summary = run(scene, settings);
+  watch.end();
+}
+
 ReferenceSolution run_as_reference(const Scene& scene, double near, RunSettings settings) {
   ReferenceSolution result;
-  Watch watch(scene, near, result);
-  settings.state = [&watch](double time, const std::vector<double>& values) { watch.state(time, values); };
-  result.trajectory = run_to_memory(scene, std::move(settings));
-  watch.end();
-  for (const std::vector<double>& row : result.trajectory.rows) watch.row(row);
+  run_as_reference(scene, near, std::move(settings), result);
   return result;
 }
 
-std::vector<RecordError> record_errors(const Scene& scene, const Trajectory& trajectory, const ReferenceSolution& truth,
-                                       const ErrorMeasure& measure) {
+std::vector<RecordError> record_errors(const Scene& scene, const RowStore& rows, const ReferenceSolution& truth, const ErrorMeasure& measure) {
   const std::vector<double> kind = largest_of_kind(scene, truth.largest);
   std::vector<RecordError> errors(scene.records.size());
+  std::vector<double> rounding(errors.size());
   for (std::size_t k = 0; k < errors.size(); ++k) {
-    RecordError& error = errors[k];
-    error.scale = truth.largest[k];
-    const double rounding = numerics::record_ulps * std::numeric_limits<double>::epsilon() * kind[k];
-    visit_common(trajectory, truth.trajectory, [&](std::size_t row, std::size_t true_row) {
-      const double t = trajectory.times[row];
-      double off = distance(trajectory.rows[row][k], truth.trajectory.rows[true_row][k], k, t, truth.instants, measure.shift);
-      off = off <= rounding ? 0 : measure.factor * off;
+    errors[k].scale = truth.largest[k];
+    rounding[k] = numerics::record_ulps * std::numeric_limits<double>::epsilon() * kind[k];
+  }
+  visit_common(rows, truth.rows, [&](double t, const double* values, const double* true_values) {
+    const auto near = instants_near(t, truth.instants, measure.shift);
+    for (std::size_t k = 0; k < errors.size(); ++k) {
+      RecordError& error = errors[k];
+      double off = distance(values[k], true_values[k], k, near, measure.shift);
+      off = off <= rounding[k] ? 0 : measure.factor * off;
       if (std::isnan(error.beyond) && off > measure.allowed * error.scale) error.beyond = t;
-      if (off <= error.largest) return;
+      if (off <= error.largest) continue;
       error.largest = off;
       error.time = t;
-    });
+    }
+  });
+  for (std::size_t k = 0; k < errors.size(); ++k) {
+    RecordError& error = errors[k];
     const double dead_band = numerics::sizeless_record * measure.allowed * kind[k];
     if (error.largest > error.scale / 2 && std::max(error.largest, error.scale) <= dead_band) {
       error.scale = kind[k];

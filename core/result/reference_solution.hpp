@@ -2,7 +2,8 @@
 
 #include <vector>
 
-#include "core/result/trajectory.hpp"
+#include "core/result/row_store.hpp"
+#include "core/result/run.hpp"
 
 namespace rheonet {
 
@@ -15,13 +16,16 @@ struct ReferenceSolution {
     std::vector<double> before, after;
     double lasts = 0;                   ///< length of the interval, 0 for a single event [s]
   };
-  Trajectory trajectory;
+  RowStore rows;
+  Summary summary;
   std::vector<double> largest;    ///< magnitude of each record, including times between rows
   std::vector<Instant> instants;  ///< sorted by time
 };
 
-/// Simulates; `state` of the settings is replaced. Keeps the events within `near` [s] of a row. Throws SimulationError.
+/// Simulates; `row` and `state` of the settings are replaced. Keeps the events within `near` [s] of a row. Throws SimulationError.
 ReferenceSolution run_as_reference(const Scene& scene, double near, RunSettings settings = {});
+/// The same into `result`, which has the rows up to there if SimulationError is thrown.
+void run_as_reference(const Scene& scene, double near, RunSettings settings, ReferenceSolution& result);
 
 /// The error of a record in a run, as the accuracy of a scene is defined: at a row, the distance from the true value. Near a
 /// jump, within `shift` [s] of the row, the value on either side of the jump counts as true. During a steep change within
@@ -42,9 +46,9 @@ struct ErrorMeasure {
   double factor = 1;      ///< multiplies each distance, to allow for the error of the yardstick
 };
 
-/// The error of each record of the scene; the runs may have more records after these. Rows at times that only one of the
-/// runs has (events) are ignored.
-std::vector<RecordError> record_errors(const Scene& scene, const Trajectory& trajectory, const ReferenceSolution& truth,
+/// The error of each record of the scene in the rows of a run; both runs may have more records after these. Rows at times that only one of
+/// the runs has (events) are ignored.
+std::vector<RecordError> record_errors(const Scene& scene, const RowStore& rows, const ReferenceSolution& truth,
                                        const ErrorMeasure& measure);
 
 /// Index of the largest relative error; 0 if there is none.

@@ -11,49 +11,43 @@ constexpr std::size_t smallest_block = 4 << 10, largest_block = 256 << 10;  // b
 
 }  // namespace
 
-RowStore::RowStore(const std::vector<std::size_t>& widths)
-    : bytes_(std::clamp(memory / std::max<std::size_t>(widths.size(), 1), smallest_block, largest_block)) {
-  for (const std::size_t width : widths) runs_.push_back({.width = width + 1});
+RowStore::RowStore(const std::vector<std::size_t>& widths, const char* contents) : file_(std::make_unique<TemporaryFile>(contents)) {
+  const std::size_t bytes = std::clamp(memory / std::max<std::size_t>(widths.size(), 1), smallest_block, largest_block);
+  for (const std::size_t values : widths) {
+    const std::size_t width = values + 1;
+    runs_.push_back({.width = width, .block_size = std::max<std::size_t>(bytes / sizeof(double) / width, 1) * width});
+  }
 }
-
-std::size_t RowStore::rows_of_block(const Run& run) const { return std::max<std::size_t>(bytes_ / sizeof(double) / run.width, 1); }
 
 void RowStore::add(std::size_t number, double time, const std::vector<double>& values) {
   Run& run = runs_[number];
-  if (run.block.size() == size_of_block(run)) write(run);
+  if (run.block.size() == run.block_size) {
+    run.blocks.push_back(file_->append(run.block.data(), run.block.size() * sizeof(double)));
+    run.block.clear();
+  }
   run.block.push_back(time);
   run.block.insert(run.block.end(), values.begin(), values.end());
   ++run.rows;
 }
 
-void RowStore::write(Run& run) {
-  const std::size_t size = run.block.size() * sizeof(double);
-  std::int64_t offset = 0;
-  {
-    const std::lock_guard lock(mutex_);
-    offset = std::exchange(end_, end_ + static_cast<std::int64_t>(size));
-  }
-  file_.write(run.block.data(), size, offset);
-  run.blocks.push_back(offset);
-  run.block.clear();
+const double* RowStore::Reader::next() {
+  if (next_ == end_ && !read()) return nullptr;
+  return std::exchange(next_, next_ + run_->width);
 }
 
-const double* RowStore::next(std::size_t number) {
-  Run& run = runs_[number];
-  if (run.begun == 0 || run.place == run.block.size()) read(run);
-  return run.block.data() + std::exchange(run.place, run.place + run.width);
-}
-
-void RowStore::read(Run& run) {
-  if (run.begun == 0) run.last = std::move(run.block);
-  run.place = 0;
-  if (run.begun < run.blocks.size()) {
-    run.block.resize(size_of_block(run));
-    file_.read(run.block.data(), run.block.size() * sizeof(double), run.blocks[run.begun]);
-  } else {
-    run.block = std::move(run.last);
+/// Goes on to the next block. Returns false if there is none.
+bool RowStore::Reader::read() {
+  if (begun_ > run_->blocks.size()) return false;
+  const bool in_memory = begun_ == run_->blocks.size();
+  if (!in_memory) {
+    block_.resize(run_->block_size);
+    file_->read(block_.data(), block_.size() * sizeof(double), run_->blocks[begun_]);
   }
-  ++run.begun;
+  ++begun_;
+  const std::vector<double>& block = in_memory ? run_->block : block_;
+  next_ = block.data();
+  end_ = next_ + block.size();
+  return next_ != end_;
 }
 
 }  // namespace rheonet

@@ -2,47 +2,64 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <mutex>
+#include <memory>
 #include <vector>
 
 #include "core/result/temporary_file.hpp"
 
 namespace rheonet {
 
-/// The rows of several runs side by side, until they are joined. A run's last rows are in memory, those before them in one temporary file, so that
-/// runs of any length take little memory. Short runs make no file.
+/// The rows of one run, or of several runs side by side. A run's last rows are in memory, those before them in one temporary file, so that runs of
+/// any length take little memory. Short runs make no file.
 class RowStore {
+  struct Run;
+
  public:
-  /// `widths`: the number of values in a row of each run, besides the time.
-  explicit RowStore(const std::vector<std::size_t>& widths);
+  /// `widths`: the number of values in a row of each run, besides the time. `contents` is that of the TemporaryFile.
+  explicit RowStore(const std::vector<std::size_t>& widths = {}, const char* contents = "the rows of a run");
 
   /// Adds a row. Different runs may be in different threads. Throws WriteError if the temporary file cannot be written.
   void add(std::size_t run, double time, const std::vector<double>& values);
-  std::size_t rows(std::size_t run) const { return runs_[run].rows; }
+  /// The same for the only run.
+  void add(double time, const std::vector<double>& values) { add(0, time, values); }
+  std::size_t rows(std::size_t run = 0) const { return runs_[run].rows; }
+  /// Numbers of a row, with the time.
+  std::size_t width(std::size_t run = 0) const { return runs_[run].width; }
 
-  /// Reads the next row of a run, from the first one on, when all rows have been added: its time, then its values. Valid until the next call for
-  /// this run. Throws WriteError if the temporary file cannot be read.
-  const double* next(std::size_t run);
+  /// Reads the rows of a run from the first one on.
+  class Reader {
+   public:
+    Reader(Reader&&) = default;
+    Reader& operator=(Reader&&) = default;
+    /// The next row: its time, then its values. Returns nullptr after the last one. Valid until the next call. Throws WriteError if the temporary
+    /// file cannot be read.
+    const double* next();
+
+   private:
+    friend class RowStore;
+    Reader(const Run& run, const TemporaryFile& file) : run_(&run), file_(&file) {}
+    bool read();
+
+    const Run* run_;
+    const TemporaryFile* file_;
+    std::size_t begun_ = 0;      ///< Number of blocks that were begun, with the one in the memory of the store.
+    std::vector<double> block_;  ///< A block of the file.
+    const double *next_ = nullptr, *end_ = nullptr;
+  };
+  /// A reader, of any number. No rows may be added to the run while it is in use.
+  Reader read(std::size_t run = 0) const { return {runs_[run], *file_}; }
 
  private:
   struct Run {
-    std::size_t width = 0;             ///< Numbers of a row, with the time.
+    std::size_t width = 0;
     std::size_t rows = 0;
-    std::vector<double> block = {};      ///< The last rows; while it is read: those around the next row.
-    std::vector<std::int64_t> blocks = {};  ///< Where its blocks begin in the file; all of one size.
-    std::size_t begun = 0, place = 0;  ///< While it is read: the number of blocks that were begun, and the place of the next number in `block`.
-    std::vector<double> last = {};       ///< While earlier blocks are read: those rows that were still in memory.
+    std::size_t block_size = 0;             ///< Numbers of a block: whole rows.
+    std::vector<double> block = {};         ///< The last rows.
+    std::vector<std::int64_t> blocks = {};  ///< Where the blocks before them begin in the file.
   };
-  void write(Run& run);
-  void read(Run& run);
-  std::size_t size_of_block(const Run& run) const { return rows_of_block(run) * run.width; }
-  std::size_t rows_of_block(const Run& run) const;
 
   std::vector<Run> runs_;
-  std::size_t bytes_;  ///< The size of a block is not larger, unless a single row is.
-  TemporaryFile file_{"the rows of independent parts"};
-  std::mutex mutex_;  ///< Guards `end_`.
-  std::int64_t end_ = 0;  ///< Size of the file.
+  std::unique_ptr<TemporaryFile> file_;  ///< On the heap, so that the store can be moved.
 };
 
 }  // namespace rheonet

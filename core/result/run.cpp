@@ -285,10 +285,10 @@ Summary run(const Scene& scene, const RunSettings& settings) {
 
 Summary run_divided(const Scene& scene, const RunSettings& settings) {
   const auto wall = std::chrono::steady_clock::now();
-  // Callbacks between rows, and rows at events, need the whole scene in one integration. Rows of parts are held in memory.
-  // So does a condition that ends all of it.
+  // Callbacks between rows, rows at events, and a condition that ends the run need the whole scene in one integration. Rows of parts wait in a
+  // temporary file.
   const bool whole = scene.stop_when >= 0 || scene.output_events || settings.state || settings.event || settings.profile ||
-                     static_cast<double>(scene.output_intervals) * static_cast<double>(scene.records.size()) > numerics::values_in_memory;
+                     static_cast<double>(scene.output_intervals) * static_cast<double>(scene.records.size()) > numerics::values_waiting;
   const Partition partition = divide(scene, {.apart = !whole, .drop = !settings.events && !settings.state});
   if (partition.subscenes.empty()) return run_whole(scene, settings);
   Summary summary = run_in_parts(scene, partition, settings);

@@ -12,7 +12,6 @@
 
 #include "core/base/index.hpp"
 #include "core/base/numerics.hpp"
-#include "core/result/trajectory.hpp"
 
 namespace rheonet {
 
@@ -24,7 +23,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 using EventTimes = std::map<std::tuple<std::string, std::string, int>, std::vector<double>>;
 
 struct Recorded {
-  Trajectory trajectory;
+  RowStore rows;
   EventTimes events;
 };
 
@@ -105,8 +104,7 @@ class Sides {
 class Comparison {
  public:
   Comparison(const MultipliedScene& scene, const std::string& name, const RunSettings& settings) : scene_(scene), name_(name), settings_(settings) {
-    record(base, 1);
-    const Summary& own = recordings_[base].trajectory.summary;
+    const Summary own = record(base, 1);
     error_ = own.arc_steps == own.steps ? numerics::sensitivity_arc_error : numerics::sensitivity_tolerance;
   }
 
@@ -150,12 +148,14 @@ class Comparison {
   double off_ = infinity;
   double open_ = 0;   ///< time of a row without a derivative [s]
 
-  void record(std::size_t r, double factor) {
+  Summary record(std::size_t r, double factor) {
     Scene scene = scene_(factor);
     scene.output_events = false;
     Recorded& recorded = recordings_[r];
+    recorded.rows = RowStore({scene.records.size()});
     recorded.events.clear();
-    const RunSettings settings{.event = [&](double time, const std::string& element, const char* what, int direction) {
+    const RunSettings settings{.row = [&](double time, const std::vector<double>& values) { recorded.rows.add(time, values); },
+                               .event = [&](double time, const std::string& element, const char* what, int direction) {
                                  recorded.events[{element, what, direction}].push_back(time);
                                },
                                .interrupt = settings_.interrupt,
@@ -163,52 +163,74 @@ class Comparison {
                                .tolerance = std::min(scene.accuracy, numerics::sensitivity_tolerance),
                                .threads = settings_.threads,
                                .account = false};
-    recorded.trajectory = run_to_memory(scene, settings);
     ++runs_;
+    return run(scene, settings);
   }
 
-  /// Rows that all runs have.
-  std::size_t common_rows() const {
-    const std::vector<double>& own = recordings_[base].trajectory.times;
-    std::size_t rows = own.size();
-    for (const Recorded& r : recordings_) rows = std::min(rows, r.trajectory.times.size());
-    for (const Recorded& r : recordings_) {
-      if (std::equal(own.begin(), own.begin() + static_cast<std::ptrdiff_t>(rows), r.trajectory.times.begin())) continue;
-      throw SimulationError(fmt::format("`{}` changes the times of the rows: name a value of an element, a signal or a parameter that does not", name_));
+  /// The rows of all runs side by side, as far as all have them.
+  class RowsTogether {
+   public:
+    explicit RowsTogether(const Recordings& recordings) {
+      for (const Recorded& r : recordings) readers_.push_back(r.rows.read());
     }
-    return rows;
-  }
+    /// Goes on to the next row. Returns false if a run has no more.
+    bool next() {
+      for (std::size_t r = 0; r < changes; ++r) {
+        rows_[r] = readers_[r].next();
+        if (!rows_[r]) return false;
+      }
+      return true;
+    }
+    double time() const { return rows_[base][0]; }
+    bool are_at_one_time() const {
+      return std::all_of(rows_.begin(), rows_.end(), [this](const double* row) { return row[0] == time(); });
+    }
+    std::array<double, changes> values(std::size_t record) const {
+      std::array<double, changes> values;
+      for (std::size_t r = 0; r < changes; ++r) values[r] = rows_[r][1 + record];
+      return values;
+    }
+
+   private:
+    std::vector<RowStore::Reader> readers_;
+    std::array<const double*, changes> rows_{};
+  };
 
   /// Nothing where a row has no derivative by this change.
   std::optional<Compared> compare(double change) {
-    const Trajectory& own = recordings_[base].trajectory;
-    const std::size_t rows = common_rows(), records = rows > 0 ? own.rows[0].size() : 0;
+    const std::size_t records = recordings_[base].rows.width() - 1;
     Compared result;
     Sensitivity& found = result.found;
     found.change = change;
-    found.times.assign(own.times.begin(), own.times.begin() + static_cast<std::ptrdiff_t>(rows));
+    found.rows = RowStore({records});
     found.records.resize(records);
-    std::vector<double> left(records, 0), left_of_one_side(records, 0), scale(records, 0);
+    std::vector<double> left(records, 0), left_of_one_side(records, 0), scale(records, 0), values(records);
     Sides sides(shifts(recordings_));
-    for (std::size_t i = 0; i < rows; ++i) {
-      const std::array<bool, changes> same = sides.at(own.times[i]);
+    RowsTogether rows(recordings_);
+    bool open = false;
+    while (rows.next()) {
+      if (!rows.are_at_one_time())
+        throw SimulationError(fmt::format("`{}` changes the times of the rows: name a value of an element, a signal or a parameter that does not", name_));
+      if (open) continue;
+      const std::array<bool, changes> same = sides.at(rows.time());
       const bool above = same[up] && same[up_twice], below = same[down] && same[down_twice];
       if (!above && !below) {
-        open_ = own.times[i];
-        return {};
+        open_ = rows.time();
+        open = true;
+        continue;
       }
-      std::vector<double>& values = found.values.emplace_back(records);
       for (std::size_t k = 0; k < records; ++k) {
-        std::array<double, changes> r;
-        for (std::size_t s = 0; s < changes; ++s) r[s] = recordings_[s].trajectory.rows[i][k];
+        const std::array<double, changes> r = rows.values(k);
         const DifferenceQuotient d = above && below ? central(r, change) : above ? one_sided(r, up, up_twice, change) : one_sided(r, down, down_twice, -change);
         values[k] = d.value;
         scale[k] = std::max(scale[k], std::abs(r[base]));
         double& most = above && below ? left[k] : left_of_one_side[k];
         most = std::max(most, std::abs(d.left));
-        if (std::abs(d.value) > found.records[k].largest) found.records[k] = {std::abs(d.value), own.times[i], 0};
+        if (std::abs(d.value) > found.records[k].largest) found.records[k] = {std::abs(d.value), rows.time(), 0};
       }
+      found.rows.add(rows.time(), values);
     }
+    if (open) return {};
     for (std::size_t k = 0; k < records; ++k) {
       Sensitivity::Record& record = found.records[k];
       // For an exponential function the relative errors are x^2/3! of the second order and x^4/30 of the fourth; of one side alone x/2 of the first order and

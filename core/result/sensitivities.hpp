@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/result/row_store.hpp"
 #include "core/result/run.hpp"
 
 namespace rheonet {
@@ -16,10 +17,9 @@ struct Sensitivity {
     double time = 0;     ///< of the largest [s]
     double error = 0;    ///< estimated largest error of the derivative
   };
-  std::vector<double> times;                ///< of the rows of the scene; none at events
-  std::vector<std::vector<double>> values;  ///< of each time: the derivative of each record
+  RowStore rows;      ///< the derivative of each record at the times of the scene's rows; none at events
   std::vector<Record> records;
-  double change = 0;                        ///< relative change of the value in the runs that were compared
+  double change = 0;  ///< relative change of the value in the runs that were compared
   int runs = 0;
 };
 

@@ -53,6 +53,12 @@ void TemporaryFile::write(const void* bytes, std::size_t size, std::int64_t plac
   if (!transfer_all(::pwrite, file_, static_cast<const char*>(bytes), size, place)) fail("written to");
 }
 
+std::int64_t TemporaryFile::append(const void* bytes, std::size_t size) {
+  const std::int64_t place = end_.fetch_add(static_cast<std::int64_t>(size));
+  write(bytes, size, place);
+  return place;
+}
+
 void TemporaryFile::read(void* bytes, std::size_t size, std::int64_t place) const {
   if (!transfer_all(::pread, file_, static_cast<char*>(bytes), size, place)) fail("read from");
 }

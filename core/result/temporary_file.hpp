@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <mutex>
@@ -20,6 +21,8 @@ class TemporaryFile {
   /// Writes or reads bytes from `place` on. Several threads may do so at different places. Throw WriteError (disk full, say).
   void write(const void* bytes, std::size_t size, std::int64_t place);
   void read(void* bytes, std::size_t size, std::int64_t place) const;
+  /// Writes bytes after all that were appended before, also by other threads. Returns their place. Throws WriteError.
+  std::int64_t append(const void* bytes, std::size_t size);
 
  private:
   [[noreturn]] void fail(const char* what) const;
@@ -27,6 +30,7 @@ class TemporaryFile {
   std::string contents_;
   std::once_flag created_;
   int file_ = -1;
+  std::atomic<std::int64_t> end_ = 0;  ///< Of what was appended.
 };
 
 }  // namespace rheonet

@@ -11,6 +11,7 @@
 
 #include "core/base/numerics.hpp"
 #include "core/network/error.hpp"
+#include "core/result/row_store.hpp"
 
 namespace rheonet {
 
@@ -18,6 +19,12 @@ namespace {
 
 RunSettings settings_of(const Setting& setting, const PriceListSettings& settings) {
   return {.interrupt = settings.interrupt, .tolerance = setting.tolerance, .method = Scene::Method::ida, .order = setting.order, .account = false};
+}
+
+RunSettings settings_of(const Setting& setting, const PriceListSettings& settings, RowStore& rows) {
+  RunSettings result = settings_of(setting, settings);
+  result.row = [&rows](double time, const std::vector<double>& values) { rows.add(time, values); };
+  return result;
 }
 
 // WebAssembly has no threads here: there the check runs when its result is asked for.
@@ -52,6 +59,7 @@ class Pricing {
 
  private:
   const SimulationMethod& method_of(const Setting& setting) const { return settings_.methods[static_cast<std::size_t>(setting.method)]; }
+  RowStore no_rows() const { return RowStore({scene_.records.size()}); }
   double length() const { return scene_.stop - scene_.start; }
   double shift(double tolerance) const { return tolerance * length(); }
 
@@ -59,7 +67,11 @@ class Pricing {
     for (const double tolerance : numerics::reference_tolerances) {
       list_.reference = {tolerance, RunSettings{}.order};
       list_.check = {tolerance, numerics::reference_check_order};
-      auto beside = std::async(beside_this_thread, [&] { return run_to_memory(scene_, settings_of(list_.check, settings_)); });
+      auto beside = std::async(beside_this_thread, [&] {
+        RowStore rows = no_rows();
+        run(scene_, settings_of(list_.check, settings_, rows));
+        return rows;
+      });
       try {
         const double loosest = std::max(tolerances_.front(), scene_.accuracy);
         truth_ = run_as_reference(scene_, shift(loosest), settings_of(list_.reference, settings_));
@@ -76,20 +88,24 @@ class Pricing {
 
   /// Replaces the reference by the closed form of each record that has one.
   void use_closed_forms() {
-    const Trajectory computed = truth_.trajectory;
-    for (const ExactRecord& form : scene_.exact) {
-      const std::size_t k = static_cast<std::size_t>(form.record);
-      for (std::size_t i = 0; i < truth_.trajectory.times.size(); ++i) {
-        const double t = truth_.trajectory.times[i], value = form.value(t);
-        if (!std::isfinite(value))
+    if (scene_.exact.empty()) return;
+    const RowStore computed = std::exchange(truth_.rows, no_rows());
+    RowStore::Reader rows = computed.read();
+    std::vector<double> values(scene_.records.size());
+    while (const double* const row = rows.next()) {
+      const double t = row[0];
+      std::copy_n(row + 1, values.size(), values.begin());
+      for (const ExactRecord& form : scene_.exact) {
+        const std::size_t k = static_cast<std::size_t>(form.record);
+        values[k] = form.value(t);
+        if (!std::isfinite(values[k]))
           throw SimulationError(form.spot, fmt::format("the closed form of `{}` has no finite value at t = {:.6g} s",
                                                        scene_.records[k].path, t));
-        truth_.trajectory.rows[i][k] = value;
-        truth_.largest[k] = std::max(truth_.largest[k], std::abs(value));
+        truth_.largest[k] = std::max(truth_.largest[k], std::abs(values[k]));
       }
-      list_.doubt[k] = {};
+      truth_.rows.add(t, values);
     }
-    if (scene_.exact.empty()) return;
+    for (const ExactRecord& form : scene_.exact) list_.doubt[static_cast<std::size_t>(form.record)] = {};
     const auto errors = record_errors(scene_, computed, truth_, {.shift = shift(tolerances_.back())});
     for (const ExactRecord& form : scene_.exact) list_.off.push_back(errors[static_cast<std::size_t>(form.record)]);
   }
@@ -98,17 +114,17 @@ class Pricing {
     Price result;
     result.setting = setting;
     try {
-      Trajectory trajectory = run_to_memory_by(method_of(setting), scene_, settings_of(setting, settings_));
-      result.errors = record_errors(scene_, trajectory, truth_, {.allowed = setting.tolerance, .shift = shift(setting.tolerance)});
+      RowStore rows = no_rows();
+      result.summary = run_by(method_of(setting), scene_, settings_of(setting, settings_, rows));
+      result.errors = record_errors(scene_, rows, truth_, {.allowed = setting.tolerance, .shift = shift(setting.tolerance)});
       result.worst = worst_of(result.errors);
       const ErrorMeasure asked{.allowed = scene_.accuracy, .shift = shift(scene_.accuracy)};
-      const auto as_asked = record_errors(scene_, trajectory, truth_, asked);
+      const auto as_asked = record_errors(scene_, rows, truth_, asked);
       result.meets = true;
       for (std::size_t k = 0; k < as_asked.size(); ++k) {
         // The uncertainty of the reference counts as an additional error.
         if (as_asked[k].relative() + list_.doubt[k].relative() > scene_.accuracy) result.meets = false;
       }
-      result.summary = std::move(trajectory.summary);
     } catch (const SimulationError& error) {
       if (settings_.interrupt && *settings_.interrupt) throw;
       result.failure = error.what();

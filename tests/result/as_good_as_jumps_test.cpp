@@ -4,6 +4,7 @@
 
 #include "core/result/reference_solution.hpp"
 #include "tests/support/simulate.hpp"
+#include "tests/support/stored_rows.hpp"
 
 namespace rheonet::test::as_good_as_jumps_test {
 
@@ -26,9 +27,9 @@ record = ["cut.out", "ramp.out"]
 
 /// The error of a record that is `off` from the true one at 0.5 s.
 double error(const Scene& scene, const ReferenceSolution& truth, std::size_t record, double off, double shift) {
-  Trajectory trajectory = truth.trajectory;
-  trajectory.rows[5][record] += off;
-  return record_errors(scene, trajectory, truth, {.shift = shift})[record].largest;
+  RowsInMemory rows = read_back(truth.rows);
+  rows.values[5][record] += off;
+  return record_errors(scene, stored(rows), truth, {.shift = shift})[record].largest;
 }
 
 }  // namespace
@@ -39,8 +40,9 @@ TEST_CASE("what is over within a hundredth of the time to the events around it i
     CAPTURE(lasts);
     const Scene scene = crossing(lasts);
     const ReferenceSolution truth = run_as_reference(scene, 0.01);
-    REQUIRE(std::abs(truth.trajectory.times[5] - 0.5) < 1e-12);
-    REQUIRE(std::abs(truth.trajectory.rows[5][0]) < 1e-6);
+    const RowsInMemory rows = read_back(truth.rows);
+    REQUIRE(std::abs(rows.times[5] - 0.5) < 1e-12);
+    REQUIRE(std::abs(rows.values[5][0]) < 1e-6);
     const bool jumps = lasts < 5e-3;
     for (const double off : {0.7, -0.7, 1.0}) {
       CAPTURE(off);

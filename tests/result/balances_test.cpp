@@ -27,8 +27,8 @@ record = ["c.force", "low.velocity"]
 )";
 
 /// Rows in which c carries 4 N, 2 N, 0, and everything balances but for `off` at the node that `element` ends at.
-Trajectory trajectory(double off, const std::string& element, const Scene& scene) {
-  Trajectory result;
+RowStore rows(double off, const std::string& element, const Scene& scene) {
+  RowStore result({scene.records.size()});
   for (int row = 0; row < 3; ++row) {
     const double c = 4 - 2.0 * row;
     std::vector<double> values;
@@ -38,8 +38,7 @@ Trajectory trajectory(double off, const std::string& element, const Scene& scene
       if (record.path == element && row == 1) x += off;
       values.push_back(x);
     }
-    result.times.push_back(row / 2.0);
-    result.rows.push_back(values);
+    result.add(row / 2.0, values);
   }
   return result;
 }
@@ -57,12 +56,12 @@ TEST_CASE("an imbalance is an error of the forces at its node, and by its share 
   REQUIRE(balances.scene().records.size() == 5);
 
   std::vector<RecordError> errors = sound();
-  CHECK_FALSE(balances.raise(trajectory(0, "", balances.scene()), allowed, errors).has_value());
+  CHECK_FALSE(balances.raise(rows(0, "", balances.scene()), allowed, errors).has_value());
   CHECK(errors[0].largest == 1e-9);
 
   // At `mid`, which only the dashpot's record has to do with (and its motion, by no record).
   errors = sound();
-  std::optional<Imbalance> worst = balances.raise(trajectory(3e-4, "k.force", balances.scene()), allowed, errors);
+  std::optional<Imbalance> worst = balances.raise(rows(3e-4, "k.force", balances.scene()), allowed, errors);
   REQUIRE(worst.has_value());
   CHECK(worst->node == "mid");
   CHECK(worst->elements == std::vector<std::string>{"k", "c"});
@@ -75,19 +74,19 @@ TEST_CASE("an imbalance is an error of the forces at its node, and by its share 
 
   // At `low`, a drive is one of the forces. An imbalance within the tolerance is not reported, but counts as an error.
   errors = sound();
-  worst = balances.raise(trajectory(-3e-4, "pull.force", balances.scene()), allowed, errors);
+  worst = balances.raise(rows(-3e-4, "pull.force", balances.scene()), allowed, errors);
   REQUIRE(worst.has_value());
   CHECK(worst->node == "low");
   CHECK(errors[0].largest == doctest::Approx(3e-4));
   CHECK(errors[1].largest == doctest::Approx(5 * 3e-4 / 4));
   errors = sound();
-  CHECK_FALSE(balances.raise(trajectory(3e-6, "s.force", balances.scene()), allowed, errors).has_value());
+  CHECK_FALSE(balances.raise(rows(3e-6, "s.force", balances.scene()), allowed, errors).has_value());
   CHECK(errors[0].largest == doctest::Approx(3e-6));
   CHECK(std::isnan(errors[0].beyond));
 
   // Rounding of the forces is none.
   errors = sound();
-  CHECK_FALSE(balances.raise(trajectory(1e-15, "s.force", balances.scene()), allowed, errors).has_value());
+  CHECK_FALSE(balances.raise(rows(1e-15, "s.force", balances.scene()), allowed, errors).has_value());
   CHECK(errors[0].largest == 1e-9);
 }
 

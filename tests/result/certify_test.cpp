@@ -15,6 +15,7 @@
 #include "core/base/numerics.hpp"
 #include "core/network/error.hpp"
 #include "core/result/certify.hpp"
+#include "core/result/trajectory.hpp"
 #include "tests/support/check.hpp"
 #include "tests/support/scene_file.hpp"
 #include "tests/support/simulate.hpp"

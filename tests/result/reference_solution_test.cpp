@@ -7,6 +7,7 @@
 
 #include "core/result/reference_solution.hpp"
 #include "tests/support/simulate.hpp"
+#include "tests/support/stored_rows.hpp"
 
 namespace rheonet::test::reference_solution_test {
 
@@ -26,13 +27,13 @@ record = ["k1.force", "k2.force", "a.velocity"]
 }
 
 /// A run of rows at 0, 0.5 s and 1 s.
-Trajectory trajectory(const std::vector<std::vector<double>>& rows) { return {{0, 0.5, 1}, rows, {}}; }
+RowStore run_of(const std::vector<std::vector<double>>& rows) { return stored({{0, 0.5, 1}, rows}); }
 
 }  // namespace
 
 TEST_CASE("an error is relative to the largest magnitude in the run, between rows too") {
-  const ReferenceSolution truth{trajectory({{1, 0, 2}, {-3, 0, 2}, {2, 0, 2}}), {4, 0, 2}, {}};
-  const auto errors = record_errors(three_records(), trajectory({{1, 0, 2}, {-3.02, 0, 2}, {2.01, 0, 2}}), truth,
+  const ReferenceSolution truth{run_of({{1, 0, 2}, {-3, 0, 2}, {2, 0, 2}}), {}, {4, 0, 2}, {}};
+  const auto errors = record_errors(three_records(), run_of({{1, 0, 2}, {-3.02, 0, 2}, {2.01, 0, 2}}), truth,
                                     {.allowed = 1e-3, .factor = 1.5});
   REQUIRE(errors.size() == 3);
   CHECK(errors[0].largest == doctest::Approx(0.03));
@@ -47,9 +48,9 @@ TEST_CASE("an error is relative to the largest magnitude in the run, between row
 TEST_CASE("a jump may be displaced by as much as is allowed, and no more") {
   // Forces that jump at 0.49 s and 0.51 s, from 1 to 3: the run has the one late, the other early, or does not jump at all.
   const std::vector<double> before{1, 1, 0}, between{3, 1, 0}, after{3, 3, 0};
-  const ReferenceSolution truth{trajectory({before, between, after}), {3, 3, 0}, {{0.49, before, between}, {0.51, between, after}}};
+  const ReferenceSolution truth{run_of({before, between, after}), {}, {3, 3, 0}, {{0.49, before, between}, {0.51, between, after}}};
   const auto relative = [&](const std::vector<double>& row, double shift) {
-    const auto errors = record_errors(three_records(), trajectory({before, row, after}), truth, {.shift = shift});
+    const auto errors = record_errors(three_records(), run_of({before, row, after}), truth, {.shift = shift});
     return std::vector<double>{errors[0].relative(), errors[1].relative()};
   };
   CHECK(relative({1, 3, 0}, 0.0101) == std::vector<double>{0, 0});
@@ -62,16 +63,16 @@ TEST_CASE("a jump may be displaced by as much as is allowed, and no more") {
 
 TEST_CASE("what does not jump is not excused by an instant beside it") {
   // The force of 2 N is steep: a row earlier or later within `shift` of the instant would hide an error of 0.3.
-  const ReferenceSolution truth{trajectory({{0, 0, 0}, {2, 0, 0}, {4, 0, 0}}), {4, 0, 1}, {{0.52, {2.3, 0, 0}, {2.3, 0, 1}}}};
-  const auto errors = record_errors(three_records(), trajectory({{0, 0, 0}, {2.3, 0, 0}, {4, 0, 0}}), truth, {.shift = 0.05});
+  const ReferenceSolution truth{run_of({{0, 0, 0}, {2, 0, 0}, {4, 0, 0}}), {}, {4, 0, 1}, {{0.52, {2.3, 0, 0}, {2.3, 0, 1}}}};
+  const auto errors = record_errors(three_records(), run_of({{0, 0, 0}, {2.3, 0, 0}, {4, 0, 0}}), truth, {.shift = 0.05});
   CHECK(errors[0].relative() == doctest::Approx(0.3 / 4));
 }
 
 TEST_CASE("what is only rounding, or only the error of others, is not held against a record") {
   constexpr double eps = std::numeric_limits<double>::epsilon();
   const auto error_of_second = [&](double value, double truth, double allowed) {
-    const ReferenceSolution reference{trajectory({{0, 0, 0}, {5, truth, 0}, {0, 0, 0}}), {5, std::abs(truth), 0}, {}};
-    return record_errors(three_records(), trajectory({{0, 0, 0}, {5, value, 0}, {0, 0, 0}}), reference, {.allowed = allowed})[1];
+    const ReferenceSolution reference{run_of({{0, 0, 0}, {5, truth, 0}, {0, 0, 0}}), {}, {5, std::abs(truth), 0}, {}};
+    return record_errors(three_records(), run_of({{0, 0, 0}, {5, value, 0}, {0, 0, 0}}), reference, {.allowed = allowed})[1];
   };
   // Differences of forces of 5 N are rounded to some parts in 10^16 of them.
   CHECK(error_of_second(40 * eps, 0, 1e-9).largest == 0);
@@ -103,7 +104,7 @@ record = ["k.force", "push.force"]
   const double largest = 3 + std::hypot(0.01 * k * std::cos(angle) - 3, 0.01 * k * std::sin(angle));
   CHECK(closely.largest[0] == doctest::Approx(largest).epsilon(0.01));
   double at_rows = 0;
-  for (const auto& row : closely.trajectory.rows) at_rows = std::max(at_rows, std::abs(row[0]));
+  for (const auto& row : read_back(closely.rows).values) at_rows = std::max(at_rows, std::abs(row[0]));
   CHECK(at_rows < 0.6 * largest);
   CHECK(narrowly.instants.empty());
   REQUIRE(closely.instants.size() == 1);

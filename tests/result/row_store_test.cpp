@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "core/result/csv.hpp"
@@ -23,16 +24,21 @@ void add(RowStore& store, std::size_t run, std::size_t first, std::size_t end, s
   }
 }
 
-void check(RowStore& store, std::size_t run, std::size_t count, std::size_t width) {
+void check(const RowStore& store, std::size_t run, std::size_t count, std::size_t width) {
   REQUIRE(store.rows(run) == count);
+  REQUIRE(store.width(run) == width + 1);
+  RowStore::Reader reader = store.read(run);
   std::size_t wrong = 0;
   for (std::size_t row = 0; row < count; ++row) {
-    const double* const found = store.next(run);
+    const double* const found = reader.next();
+    REQUIRE(found);
     if (found[0] != static_cast<double>(row)) ++wrong;
     for (std::size_t column = 0; column < width; ++column)
       if (found[1 + column] != value(run, row, column)) ++wrong;
   }
   CHECK(wrong == 0);
+  CHECK_FALSE(reader.next());
+  CHECK_FALSE(reader.next());
 }
 
 }  // namespace
@@ -58,11 +64,25 @@ TEST_CASE("rows of many runs, added in several threads and read in turn") {
       for (std::size_t run = thread; run < runs; run += 4) add(store, run, 0, count, 1);
     });
   for (std::thread& thread : threads) thread.join();
+  std::vector<RowStore::Reader> readers;
+  for (std::size_t run = 0; run < runs; ++run) readers.push_back(store.read(run));
   std::size_t wrong = 0;
   for (std::size_t row = 0; row < count; ++row)
     for (std::size_t run = 0; run < runs; ++run)
-      if (store.next(run)[1] != value(run, row, 0)) ++wrong;
+      if (readers[run].next()[1] != value(run, row, 0)) ++wrong;
   CHECK(wrong == 0);
+}
+
+TEST_CASE("rows are read several times, at several places at once, also after the store has moved") {
+  constexpr std::size_t count = 100'000;
+  RowStore store({1});
+  add(store, 0, 0, count, 1);
+  RowStore::Reader ahead = store.read();
+  for (std::size_t row = 0; row < count / 2; ++row) ahead.next();
+  const RowStore moved = std::move(store);
+  check(moved, 0, count, 1);
+  check(moved, 0, count, 1);
+  CHECK(ahead.next()[1] == value(0, count / 2, 0));
 }
 
 TEST_CASE("rows that cannot be kept are an error that names the folder") {

@@ -11,6 +11,7 @@
 #include "core/result/sensitivities.hpp"
 #include "core/result/trajectory.hpp"
 #include "tests/support/simulate.hpp"
+#include "tests/support/stored_rows.hpp"
 
 namespace rheonet::test::sensitivities_test {
 
@@ -30,9 +31,10 @@ Sensitivity by(const std::string& toml, const std::string& path) {
 /// Largest difference of a record's derivative from a closed form, of the largest magnitude of that. Also checks that the stated error covers it.
 double off(const Sensitivity& found, std::size_t record, const std::function<double(double)>& exact) {
   double largest = 0, scale = 0;
-  for (std::size_t i = 0; i < found.times.size(); ++i) {
-    const double x = exact(found.times[i]);
-    largest = std::max(largest, std::abs(found.values[i][record] - x));
+  const RowsInMemory rows = read_back(found.rows);
+  for (std::size_t i = 0; i < rows.times.size(); ++i) {
+    const double x = exact(rows.times[i]);
+    largest = std::max(largest, std::abs(rows.values[i][record] - x));
     scale = std::max(scale, std::abs(x));
   }
   REQUIRE(scale > 0);
@@ -84,7 +86,7 @@ TEST_CASE("derivatives across events: the first slip begins later with more stat
     const double s = t - first;
     return Fs * (-std::cos(w * s) / k - ((Fs - Fc) / k * w * std::sin(w * s) - v * std::cos(w * s)) / (k * v));
   };
-  const Sensitivity found = by(stick_slip, "rub.breakaway");
+  const RowsInMemory found = read_back(by(stick_slip, "rub.breakaway").rows);
   double largest = 0;
   for (std::size_t i = 0; i < found.times.size() && found.times[i] <= slipped; ++i) {
     largest = std::max(largest, std::abs(found.values[i][0] - exact(found.times[i])));
@@ -94,13 +96,13 @@ TEST_CASE("derivatives across events: the first slip begins later with more stat
 
 // All strengths times a factor: the motion stays, and the forces are multiplied by it. The derivatives by their logarithms add up to that.
 TEST_CASE("derivatives by all masses, stiffnesses and friction forces together follow from scaling") {
-  std::vector<Sensitivity> parts;
-  for (const char* path : {"spring.stiffness", "body.mass", "rub.coulomb", "rub.breakaway"}) parts.push_back(by(stick_slip, path));
+  std::vector<RowsInMemory> parts;
+  for (const char* path : {"spring.stiffness", "body.mass", "rub.coulomb", "rub.breakaway"}) parts.push_back(read_back(by(stick_slip, path).rows));
   const test::RunTable rows = test::simulate(stick_slip, 1e-9);
   double position = 0, force = 0, largest = 0;
   for (std::size_t i = 0; i < parts[0].times.size(); ++i) {
     double x = 0, f = 0;
-    for (const Sensitivity& part : parts) {
+    for (const RowsInMemory& part : parts) {
       x += part.values[i][0];
       f += part.values[i][1];
       largest = std::max(largest, std::abs(part.values[i][1]));
@@ -158,7 +160,7 @@ record = ["n1.position"]
     };
     const double change = 1e-4, exact = (final(1 + change) - final(1 - change)) / (2 * change);
     const Sensitivity found = by(toml, path);
-    CHECK(std::abs(found.values.back()[0] - exact) < 1e-5 * std::abs(exact));
+    CHECK(std::abs(read_back(found.rows).values.back()[0] - exact) < 1e-5 * std::abs(exact));
     CHECK(found.records[0].error < 1e-5 * std::abs(exact));
   }
 }

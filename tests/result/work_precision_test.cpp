@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/network/error.hpp"
+#include "core/result/trajectory.hpp"
 #include "core/result/work_precision.hpp"
 #include "tests/support/simulate.hpp"
 #include "tests/tools/scenes.hpp"

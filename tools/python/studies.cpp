@@ -257,19 +257,28 @@ Sensitivities::Sensitivities(Source& source, const Source::Wanted& wanted, std::
 }
 
 py::array_t<double> Sensitivities::time() const {
-  const std::vector<double>& times = derivatives_.front().times;
-  return py::array_t<double>(static_cast<py::ssize_t>(times.size()), times.data());
+  py::array_t<double> result(rows_of_all());
+  RowStore::Reader reader = derivatives_.front().rows.read();
+  double* cell = result.mutable_data();
+  for (py::ssize_t row = 0; row < rows_of_all(); ++row) *cell++ = reader.next()[0];
+  return result;
 }
 
 py::array_t<double> Sensitivities::rows(std::size_t record) const {
-  py::array_t<double> result({static_cast<py::ssize_t>(derivatives_.size()), static_cast<py::ssize_t>(derivatives_.front().times.size())});
-  auto cells = result.mutable_unchecked<2>();
-  for (std::size_t value = 0; value < derivatives_.size(); ++value) {
-    const std::vector<std::vector<double>>& rows = derivatives_[value].values;
-    for (std::size_t row = 0; row < rows.size(); ++row)
-      cells(static_cast<py::ssize_t>(value), static_cast<py::ssize_t>(row)) = rows[row].at(record) + 0.0;
+  py::array_t<double> result({static_cast<py::ssize_t>(derivatives_.size()), rows_of_all()});
+  double* cell = result.mutable_data();
+  for (const Sensitivity& by_value : derivatives_) {
+    RowStore::Reader reader = by_value.rows.read();
+    for (py::ssize_t row = 0; row < rows_of_all(); ++row) *cell++ = reader.next()[1 + record] + 0.0;
   }
   return result;
+}
+
+/// The number of rows that the derivatives by each value have.
+py::ssize_t Sensitivities::rows_of_all() const {
+  std::size_t rows = derivatives_.front().rows.rows();
+  for (const Sensitivity& by_value : derivatives_) rows = std::min(rows, by_value.rows.rows());
+  return static_cast<py::ssize_t>(rows);
 }
 
 py::list Sensitivities::largest() const {

@@ -111,6 +111,8 @@ class Sensitivities {
   std::string text() const;
 
  private:
+  py::ssize_t rows_of_all() const;
+
   std::vector<std::string> paths_;
   Reading reading_;
   std::vector<Sensitivity> derivatives_;

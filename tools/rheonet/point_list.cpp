@@ -74,9 +74,7 @@ std::variant<std::shared_ptr<const PointList>, NoVariation> PointList::read(cons
 
 void PointList::add(const std::string& line) {
   if (rest_.size() > block_size) {
-    const std::int64_t place = blocks_.empty() ? 0 : blocks_.back().place + static_cast<std::int64_t>(blocks_.back().size);
-    file_.write(rest_.data(), rest_.size(), place);
-    blocks_.push_back({first_of_rest_, place, rest_.size()});
+    blocks_.push_back({first_of_rest_, file_.append(rest_.data(), rest_.size()), rest_.size()});
     rest_.clear();
     first_of_rest_ = rows_;
   }

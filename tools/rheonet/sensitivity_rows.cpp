@@ -6,7 +6,6 @@
 
 #include "core/network/component.hpp"
 #include "core/result/csv.hpp"
-#include "core/result/trajectory.hpp"
 #include "tools/rheonet/reading.hpp"
 #include "tools/rheonet/table.hpp"
 
@@ -62,14 +61,15 @@ Summary write_with_derivatives(const Scene& scene, const std::vector<Sensitivity
       for (const Record& record : scene.records) names.push_back(derivative_name(record.path, path));
     }
     writer.header(names);
-    std::size_t row = 0;
+    std::vector<RowStore::Reader> readers;
+    for (const Sensitivity& one : derivatives) readers.push_back(one.rows.read());
     settings.row = [&](double time, const std::vector<double>& values) {
       std::vector<double> all = values;
-      for (const Sensitivity& one : derivatives) {
-        if (row >= one.values.size()) return;
-        all.insert(all.end(), one.values[row].begin(), one.values[row].end());
+      for (RowStore::Reader& reader : readers) {
+        const double* const row = reader.next();
+        if (!row) return;
+        all.insert(all.end(), row + 1, row + 1 + values.size());
       }
-      ++row;
       writer.row(time, all);
     };
     return run(plain, settings);

@@ -1,3 +1,4 @@
+#include <H5Fpublic.h>
 #include <H5public.h>
 #include <netcdf.h>
 
@@ -28,6 +29,22 @@ void add_text(int file, int variable, const char* name, const std::string& text)
   check(nc_put_att_text(file, variable, name, text.size(), text.c_str()));
 }
 
+/// Keeps the cache of HDF5 for the structure of the file, and for texts, at its first size. It would grow with the number of texts, up to 32 MB. NetCDF does not
+/// give access to this setting.
+void limit_metadata_cache() {
+  hid_t file = H5I_INVALID_HID;
+  if (H5Fget_obj_ids(static_cast<hid_t>(H5F_OBJ_ALL), H5F_OBJ_FILE, 1, &file) != 1) return;
+  H5AC_cache_config_t config;
+  config.version = H5AC__CURR_CACHE_CONFIG_VERSION;
+  if (H5Fget_mdc_config(file, &config) < 0) return;
+  config.incr_mode = H5C_incr__off;
+  config.flash_incr_mode = H5C_flash_incr__off;
+  config.decr_mode = H5C_decr__off;
+  config.set_initial_size = true;
+  config.initial_size = config.min_size;
+  H5Fset_mdc_config(file, &config);
+}
+
 /// Variables over one unlimited dimension. A column that is called as the rows are is the coordinate.
 class NetcdfFile : public TableFile {
   static constexpr std::size_t chunk = 8192;  // rows
@@ -37,6 +54,7 @@ class NetcdfFile : public TableFile {
     H5dont_atexit();  // At exit HDF5 would flush unfinished files, and crash if the disk is full.
     errno = 0;
     check(nc_create(path, NC_NETCDF4 | NC_CLOBBER, &file_));
+    limit_metadata_cache();
     try {
       int dimension = 0;
       check(nc_def_dim(file_, layout.row.c_str(), NC_UNLIMITED, &dimension));
