@@ -1,12 +1,14 @@
 """Data frames, data sets, sweeps, and what Jupyter shows."""
 
 import base64
+import fractions
 import os
 import re
 import signal
 import subprocess
 import threading
 import time
+import tomllib
 import xml.etree.ElementTree
 
 import numpy as np
@@ -93,6 +95,59 @@ def test_a_sweep_keeps_to_the_file_that_was_loaded(tmp_path):
     file.write_text(FRICTION.replace("1 mm", "0.1 mm"))
     data = scene.sweep({"k1.stiffness": [100, 200]}, measure="max(s1.force)")
     np.testing.assert_allclose(data["max(s1.force)"], 0.05, rtol=1e-5)  # 0.02 N with the other motion
+
+
+def test_a_varied_value_comes_after_the_changes_of_load():
+    expected = rheonet.loads(FRICTION).sweep({"s1.coulomb": [0.05, 0.1]}, "max(s1.force)")
+    scene = rheonet.loads(FRICTION, {"s1.coulomb": 0.02, "s1.coulomb*": 2})
+    assert scene.sweep({"s1.coulomb": [0.05, 0.1]}, "max(s1.force)").identical(expected)
+
+
+def test_a_run_without_the_measure_leaves_the_others():
+    scene, measure = rheonet.load(OSCILLATOR), "value(k1.force, 0.5 s)"
+    with pytest.warns(RuntimeWarning, match="1 of 2 runs failed"):
+        data = scene.sweep({"simulate.stop": ["0.1 s", "2 s"]}, measure)
+    assert np.isnan(data[measure][0]) and data[measure][1] == rheonet.load(OSCILLATOR).sweep({"simulate.stop": ["2 s"]}, measure)[measure][0]
+    with pytest.raises(rheonet.NetlistError, match="nothing is called"):
+        scene.sweep({"simulate.stop": ["0.1 s", "2 s"]}, "max(k2.force)")
+
+
+@pytest.mark.parametrize("measure", [None, "max(k1.force)"])
+def test_runs_with_other_units_are_told(measure):
+    text = """[elements]
+k1 = { type = "spring", between = ["a", "ground"], stiffness = 3 }
+drive = { type = "motion", at = "a", velocity = 2 }
+[simulate]
+stop = 1
+record = ["k1.force"]
+"""
+    with pytest.raises(ValueError, match="k1.force.* has the unit N"):
+        rheonet.loads(text, {"domain": "translation"}).sweep({"domain": ["translation", "rotation"]}, measure)
+
+
+def test_a_varied_signal_that_is_recorded(tmp_path):
+    text = """[elements]
+push = { type = "force", at = "a", force = 2 }
+c1 = { type = "dashpot", between = ["a", "ground"], damping = 1 }
+[simulate]
+stop = 1
+record = ["push.force"]
+"""
+    data = rheonet.loads(text).sweep({"push.force": ["3 N", "5 N"]})
+    assert data["push.force"].values.tolist() == [3, 5] and data["push.force_"].long_name == "push.force"
+    np.testing.assert_array_equal(data["push.force_"].values[:, -1], [3, 5])
+    data.to_netcdf(tmp_path / "sweep.nc")
+
+
+def test_values_that_are_no_floats():
+    data = rheonet.loads(FRICTION).sweep({"k1.stiffness": [10**30, fractions.Fraction(1, 3)]}, "max(s1.force)")
+    assert data["k1.stiffness"].dtype == float and data["k1.stiffness"].values.tolist() == [1e30, 1 / 3]
+    with pytest.raises(ValueError, match="masked"):
+        rheonet.loads(FRICTION).sweep({"k1.stiffness": np.ma.array([1, 2], mask=[0, 1])}, "max(s1.force)")
+    for changes in ({"title": "\udc80"}, {"k1.stiffness": "\udc80"}, {"\udc80": 1}):
+        with pytest.raises(ValueError, match="must be Unicode text"):
+            rheonet.loads(FRICTION, changes)
+    assert rheonet.load(tomllib.loads(FRICTION) | {"title": "a\x7fb"}).title == "a\x7fb"
 
 
 def test_ctrl_c_ends_a_sweep():

@@ -112,4 +112,25 @@ TEST_CASE("rows are CSV: a file that is named as another format is refused befor
   CHECK(folder.read("x.txt") == folder.read("x.csv"));
 }
 
+TEST_CASE("two outputs to one place are refused, by whatever names") {
+  const Folder folder(oscillator);
+  for (const std::string options : {"--summary -", "-o /dev/stdout --summary -", "-o - --events /dev/stdout"}) {
+    CAPTURE(options);
+    CHECK(contains(folder.shell("rheonet run scene.toml " + options + " > both.txt", 2).err, "both write to standard output"));
+  }
+}
+
+TEST_CASE("a file without a name is a mistake of the command line") {
+  const Folder folder(oscillator);
+  for (const std::string options : {"run --summary ''", "run --events ''", "run -o ''", "sweep --vary m1.mass=1,2 --statistics ''"}) {
+    CAPTURE(options);
+    CHECK(contains(folder.shell("rheonet " + options + " scene.toml", 2).err, "needs the name of a file"));
+  }
+}
+
+TEST_CASE("the summary of a scene whose file name is not UTF-8 is JSON") {
+  const Folder folder(oscillator);
+  folder.shell("cp scene.toml $'a\\xff.toml' && rheonet run $'a\\xff.toml' -q -o a.csv --summary s.json && grep -q '\"scene\": \"a' s.json", 0);
+}
+
 }  // namespace rheonet::test::output_test

@@ -386,4 +386,54 @@ TEST_CASE("sweep: of rows of many runs each run is a curve of its own, called by
   CHECK(matches(folder.shell("rheonet plot s.csv -x parameters.B -y 'max(c.force)' -o -", 0).out, "stroke-width=\"1.6\"").size() == 2);
 }
 
+TEST_CASE("sweep: a grid is even to a thousandth of its step, however small beside its values") {
+  const Folder folder(dragged_dashpot);
+  const auto values = [&](const std::string& range) {
+    folder.shell("rheonet sweep scene.toml --vary 'parameters.B=" + range + "' --measure steps -q -o sweep.csv", 0);
+    std::vector<double> all;
+    const auto rows = table(folder.read("sweep.csv"));
+    for (std::size_t k = 1; k < rows.size(); ++k) all.push_back(number(rows[k][1]));
+    return all;
+  };
+  CHECK(values("1000000:1000001:5") == std::vector<double>{1000000, 1000000.25, 1000000.5, 1000000.75, 1000001});
+  CHECK(values("1:2:4") == std::vector<double>{1, 1.33333, 1.66667, 2});
+  const std::vector<double> logarithmic = values("1:1.001:5:log");
+  for (std::size_t k = 0; k < 5; ++k) CHECK(std::abs(std::log(logarithmic[k]) / std::log(1.001) * 4 - static_cast<double>(k)) < 1e-3);
+}
+
+TEST_CASE("sweep: a measure that the first run does not have, or has in another unit, fails that run alone") {
+  const Folder folder(oscillator);
+  folder.shell("rheonet sweep scene.toml --vary 'simulate.stop=0.3 s,1 s' --measure 'value(k1.force, 0.5 s)' -q -o sweep.csv", 1);
+  const auto rows = table(folder.read("sweep.csv"));
+  REQUIRE(rows.size() == 3);
+  CHECK(rows[1].back() != "");
+  CHECK(number(rows[2][2]) == doctest::Approx(0.1 * std::cos(5.0)).epsilon(1e-4));
+  folder.shell("rheonet sweep scene.toml --vary 'simulate.stop=0.3 s,1 s' --measure 'value(k1.sforce, 0.5 s)' -q -o none.csv", 2);
+  CHECK_FALSE(folder.has("none.csv"));
+
+  folder.write("scene.toml", R"(domain = "translation"
+[elements]
+k1 = { type = "spring", between = ["a", "ground"], stiffness = 3 }
+drive = { type = "motion", at = "a", velocity = 2 }
+[simulate]
+stop = 1
+output = { points = 2 }
+record = ["k1.force"]
+)");
+  for (const std::string measure : {"", "--measure 'max(k1.force)'"}) {
+    CAPTURE(measure);
+    folder.shell("rheonet sweep scene.toml --vary domain=translation,rotation " + measure + " -q -o units.csv", 1);
+    CHECK(contains(folder.read("units.csv"), "has the unit N*m here, and N in the column"));
+  }
+}
+
+TEST_CASE("sweep: an interrupted one without a row leaves an earlier table; `--resume` needs a file") {
+  const Folder folder(endless);
+  folder.write("s.mat", "earlier");
+  const std::string sweep = "rheonet sweep scene.toml --vary k1.stiffness=1,2 --measure 'max(block.position)' ";
+  CHECK(contains(folder.shell("timeout --preserve-status -s INT 0.5 " + sweep + "-o s.mat", 1).err, "`s.mat` is as it was before"));
+  CHECK(folder.read("s.mat") == "earlier");
+  CHECK(contains(folder.shell(sweep + "--resume -o /dev/full", 2).err, "goes on in a file, and `/dev/full` is none"));
+}
+
 }  // namespace rheonet::test::sweep_test

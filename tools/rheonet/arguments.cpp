@@ -117,6 +117,17 @@ ExitStatus report_mistake(const WrongCommandLine& mistake, const CLI::App& app) 
   return wrong_input;
 }
 
+/// Refuses "", which an unset variable of the shell leaves.
+void refuse_files_without_a_name(const CLI::App& app) {
+  for (const CLI::App* command : app.get_subcommands()) {
+    for (const CLI::Option* option : command->get_options()) {
+      const std::vector<std::string>& given = option->results();
+      if (option->get_type_name() == "FILE" && std::find(given.begin(), given.end(), "") != given.end())
+        throw WrongCommandLine{fmt::format("`{}` needs the name of a file", option->get_name()), ""};
+    }
+  }
+}
+
 void add_figure(CLI::App* command, Arguments& arguments) {
   Arguments::Plot& plot = arguments.plot;
   command->add_option("FILES", arguments.scenes, "scenes (.toml) and CSV files; their curves are overlaid")
@@ -351,6 +362,7 @@ std::variant<Arguments, ExitStatus> read_arguments(std::vector<std::string> word
       throw WrongCommandLine{parse_error_in_words(error), ""};
     }
     refuse_extra_words(app, words);
+    refuse_files_without_a_name(app);
     if (accuracy) arguments.accuracy = read_number("--accuracy", *accuracy);
     if (within) arguments.within = read_number("--within", *within);
     if (order) arguments.order = read_whole("--order", *order, 1, 5);

@@ -229,6 +229,7 @@ int Output::close() {
   std::fclose(file_);
   file_ = nullptr;
   if (path_ == "-") return error_;
+  if (table_ && rows() == 0) abandoned_ = true;  // A table without rows is not worth an earlier one.
   if (table_ && touched_ && !abandoned_ && error_ == 0) {
     try {
       table_->close();

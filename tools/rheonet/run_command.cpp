@@ -37,8 +37,9 @@ namespace fs = std::filesystem;
 // Two streams to one file would overwrite each other.
 bool same_file(const std::string& path, const std::string& other) {
   std::error_code error;
-  if (path == "-" || other == "-") return path == other;
-  return fs::equivalent(path, other, error) && fs::is_regular_file(path, error);
+  if (path == "-" && other == "-") return true;
+  const auto in_folders = [](const std::string& name) { return name == "-" ? std::string("/dev/stdout") : name; };
+  return fs::equivalent(in_folders(path), in_folders(other), error) && fs::is_regular_file(in_folders(path), error);
 }
 
 /// Whether two outputs go to the same file; prints an error if so.
@@ -50,7 +51,7 @@ bool write_to_one_file(const Arguments& arguments) {
       if (!same_file(outputs[k].second, outputs[i].second)) continue;
       const std::string& path = outputs[k].second;
       say("error: `{}` and `{}` both write to {}; give one of them another file\n", outputs[k].first, outputs[i].first,
-          path == "-" ? "standard output" : "`" + printable(path) + "`");
+          path == "-" || outputs[i].second == "-" ? "standard output" : "`" + printable(path) + "`");
       return true;
     }
   return false;
@@ -165,7 +166,7 @@ ExitStatus run_scene(const Arguments& arguments) {
       json.update(summary_json(*read.scene, summary, outputs.rows->rows()));
       if (certificate) json["certificate"] = certificate_json(*read.scene, *certificate);
       if (!derivatives.empty()) json["sensitivities"] = sensitivities_json(*read.scene, derivatives, arguments.sensitivities);
-      if (!write_all(*outputs.summary, json.dump(2) + '\n', "line")) return not_simulated;
+      if (!write_all(*outputs.summary, json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + '\n', "line")) return not_simulated;
     }
     if (!arguments.quiet) {
       say("{}: {:g} s to {:g} s\n{}", printable(arguments.scene), read.scene->start, read.scene->stop,
@@ -183,6 +184,7 @@ ExitStatus run_scene(const Arguments& arguments) {
     // If closing failed, the error has been printed with the name of the file.
     if (closed || !dynamic_cast<const WriteError*>(&error)) report(error, read.sources);
     if (closed) say("{}", outputs.kept());
+    if (outputs.summary) say("  no summary is written to {}\n", outputs.summary->name());
     if (figure) figure->write_beginning(arguments.figure);
     return not_simulated;
   }

@@ -200,7 +200,7 @@ bool SweepJob::write_statistics() {
   nlohmann::ordered_json head{{"program", "rheonet " RHEONET_VERSION}, {"scene", arguments_.scene}, {"title", sweep_.title()}, {"runs", runs_}, {"failed", statistics_->failed()}};
   for (const auto& [way, count] : {std::pair{"random", o.random}, {"latin", o.latin}, {"sobol", o.sobol}})
     if (count > 0) head["points"] = {{"kind", way}, {"count", count}, {"seed", o.seed.value_or(1)}};
-  return write_all(*statistics_output_, as_json(std::move(head), results_, sweep_.design(), sweep_.table()).dump(2) + '\n', "line");
+  return write_all(*statistics_output_, as_json(std::move(head), results_, sweep_.design(), sweep_.table()).dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + '\n', "line");
 }
 
 void SweepJob::summarize(const Left& left, double wall) const {

@@ -48,9 +48,10 @@ std::optional<long> first_difference(const std::string& file, std::size_t begin,
 std::variant<Left, NoVariation> what_is_left(const std::string& file, const Expected& expected) {
   Left left;
   left.runs = expected.first;
+  if (!std::filesystem::exists(file)) return left;  // The sweep ended before its first row.
+  if (!std::filesystem::is_regular_file(file)) return NoVariation{fmt::format("`--resume` goes on in a file, and `{}` is none", file), ""};
   std::ifstream in(file, std::ios::binary);
   if (!in) {
-    if (!std::filesystem::exists(file)) return left;  // The sweep ended before its first row.
     return NoVariation{fmt::format("`--resume`: `{}` cannot be read: {}", file, std::strerror(errno)), ""};
   }
   const std::string hint = "without `--resume` it is written anew";

@@ -47,17 +47,18 @@ bool Sweep::is_wrong_for_all(const ReadResult& refused) {
   const ReadResult plain = read({});
   for (const Diagnostic& mistake : refused.diagnostics) {
     if (!is_error(mistake)) continue;
-    if (mistake.spot.on_command_line()) {
-      // The lines of the command line: first the --set, then the varied values, then the measures.
-      const std::size_t line = static_cast<std::size_t>(mistake.spot.line) - 1;
-      if (line < set || line >= set + design_.paths().size()) return true;
+    // The lines of the command line: first the --set, then the varied values, then the measures, which have mistakes in some scenes only.
+    const std::size_t line = static_cast<std::size_t>(mistake.spot.line) - 1, varied = design_.paths().size();
+    const bool in_measure = mistake.spot.on_command_line() && line >= set + varied;
+    if (mistake.spot.on_command_line() && !in_measure) {
+      if (line < set) return true;
       const std::size_t path = count_characters(design_.origins()[line - set] + design_.paths()[line - set]);
       if (static_cast<std::size_t>(mistake.spot.column) <= path) return true;
       continue;
     }
     const auto same = [&](const Diagnostic& other) {
       return is_error(other) && other.message == mistake.message && other.spot.file == mistake.spot.file &&
-             other.spot.line == mistake.spot.line && other.spot.column == mistake.spot.column;
+             other.spot.line == mistake.spot.line - static_cast<int>(in_measure ? varied : 0) && other.spot.column == mistake.spot.column;
     };
     if (std::any_of(plain.diagnostics.begin(), plain.diagnostics.end(), same)) return true;
   }
@@ -99,7 +100,7 @@ bool Sweep::make(long first, long end, Spool& rows, const std::atomic<bool>& sto
 bool Sweep::make(const ReadResult& read, const std::string& key, Spool& rows, const std::atomic<bool>& stop) {
   try {
     if (!read.scene) throw SimulationError(first_mistake(read));
-    table_.check_records(read.scene->records);
+    table_.check_columns(*read.scene);
     RunSettings settings;
     settings.interrupt = &stop;
     settings.account = table_.needs_account();

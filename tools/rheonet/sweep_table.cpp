@@ -61,6 +61,8 @@ std::string unit_of_values(const std::vector<std::vector<std::string>>& points, 
   return "1";
 }
 
+std::string unit_of_column(const Scene& scene, const Record& record) { return unit_of(scene, record).open ? "" : unit_text(scene, record); }
+
 std::string heading(const std::string& name, const std::string& unit) {
   return ',' + cell(unit.empty() || unit == "1" ? name : fmt::format("{} [{}]", name, unit));
 }
@@ -123,7 +125,7 @@ void SweepTable::set_scene(const Scene& scene) {
     if (!measure.figure) measure.unit = unit_of_claim(scene.claims[claim++], scene);
   if (measures()) return;
   for (const Record& record : scene.records)
-    records_.push_back({record.path, unit_of(scene, record).open ? "" : unit_text(scene, record)});
+    records_.push_back({record.path, unit_of_column(scene, record)});
 }
 
 std::vector<SweepTable::Heading> SweepTable::headings(const std::vector<std::vector<std::string>>& points) const {
@@ -183,10 +185,19 @@ void SweepTable::append(std::string& text, const std::string& key, double time, 
   text += ",\n";
 }
 
-void SweepTable::check_records(const std::vector<Record>& records) const {
+void SweepTable::check_columns(const Scene& scene) const {
+  std::size_t claim = 0;
+  const auto check_unit = [](const std::string& column, const std::string& unit, const std::string& here) {
+    if (here != unit) throw SimulationError(fmt::format("`{}` has the unit {} here, and {} in the column", column, here, unit));
+  };
+  for (const Measure& measure : measures_)
+    if (!measure.figure) check_unit(measure.text, measure.unit, unit_of_claim(scene.claims[claim++], scene));
   if (measures()) return;
   const auto same = [](const RecordColumn& column, const Record& record) { return column.path == record.path; };
-  if (std::equal(records_.begin(), records_.end(), records.begin(), records.end(), same)) return;
+  if (std::equal(records_.begin(), records_.end(), scene.records.begin(), scene.records.end(), same)) {
+    for (std::size_t k = 0; k < records_.size(); ++k) check_unit(records_[k].path, records_[k].unit, unit_of_column(scene, scene.records[k]));
+    return;
+  }
   throw SimulationError("it records other quantities than the first run, whose columns these are; `record` in [simulate] names some that all have");
 }
 

@@ -54,8 +54,8 @@ class SweepTable {
   std::string row(const std::string& key, const Summary& summary) const;
   /// Appends a row of a run's records.
   static void append(std::string& text, const std::string& key, double time, const std::vector<double>& values);
-  /// Throws SimulationError if a run's records are not those of the columns.
-  void check_records(const std::vector<Record>& records) const;
+  /// Throws SimulationError if the records of a run, or the units of its columns, are not those of the first run.
+  void check_columns(const Scene& scene) const;
   std::string failed(const std::string& key, const std::string& why) const;
 
  private:

@@ -56,23 +56,27 @@ double between(double from, double to, double fraction, bool logarithmic) {
 }
 
 /// Evenly spaced values from `from` to `to`. The ends are kept as they were typed; the others are rounded to the fewest digits, at least 6,
-/// that keep neighbours distinct. Absent if no number of digits does.
+/// that change them by no more than a thousandth of the distance to the neighbour. Absent if neighbours are the same double.
 std::optional<std::vector<std::string>> spread(const End& from, const End& to, long count, bool logarithmic) {
+  constexpr double most_shift = 1e-3;
   for (int digits = 6; digits <= std::numeric_limits<double>::max_digits10; ++digits) {
     std::vector<std::string> values{joined(from.number, to.unit)};
-    double last = from.value;
+    double last = from.value, exact_last = from.value;
     const auto goes_on = [&](double value) { return from.value < to.value ? last < value : last > value; };
-    bool apart = true;
-    for (long i = 1; i < count - 1 && apart; ++i) {
+    const bool all_digits = digits == std::numeric_limits<double>::max_digits10;
+    bool even = true;
+    for (long i = 1; i < count - 1 && even; ++i) {
       const double fraction = static_cast<double>(i) / static_cast<double>(count - 1);
-      const std::string number = fmt::format("{:.{}g}", between(from.value, to.value, fraction, logarithmic), digits);
+      const double exact = between(from.value, to.value, fraction, logarithmic);
+      const std::string number = fmt::format("{:.{}g}", exact, digits);
       const auto read = read_end(number);  // The value that is simulated. Absent if rounding exceeded the largest double.
-      apart = read && goes_on(read->value);
+      even = read && goes_on(read->value) && (all_digits || std::abs(read->value - exact) <= most_shift * std::abs(exact - exact_last));
       if (read) last = read->value;
+      exact_last = exact;
       values.push_back(joined(number, to.unit));
     }
     values.push_back(joined(to.number, to.unit));
-    if (apart && goes_on(to.value)) return values;
+    if (even && goes_on(to.value)) return values;
   }
   return {};
 }
@@ -87,7 +91,7 @@ std::variant<Parts, NoVariation> split_variation(const std::string& text, const 
   const std::size_t equals = text.find('=');
   if (equals == 0 || equals >= text.size() - 1)
     return NoVariation{fmt::format("`--vary {}` does not say what takes which values", text), forms};
-  Parts parts{text.substr(0, equals), text.substr(equals + 1), {}};
+  Parts parts{text.substr(0, equals), text.substr(std::min(text.find_first_not_of(' ', equals + 1), text.size() - 1)), {}};
   parts.parts = split(parts.range, ':');
   return parts;
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <set>
 #include <system_error>
 
 #include "tools/tables/table_file.hpp"
@@ -19,9 +20,10 @@ void check(int status) {
   throw std::system_error(error != 0 ? error : EIO, std::generic_category(), nc_strerror(status));
 }
 
-/// A name as NetCDF allows it: without `/`.
-std::string allowed(std::string name) {
+/// A name as NetCDF allows it, without `/` and different from all before it.
+std::string allowed(std::string name, std::set<std::string>& used) {
   std::replace(name.begin(), name.end(), '/', '_');
+  while (!used.insert(name).second) name += '_';
   return name;
 }
 
@@ -60,10 +62,11 @@ class NetcdfFile : public TableFile {
       check(nc_def_dim(file_, layout.row.c_str(), NC_UNLIMITED, &dimension));
       if (!layout.title.empty()) add_text(file_, NC_GLOBAL, "title", layout.title);
       add_text(file_, NC_GLOBAL, "source", layout.program);
+      std::set<std::string> used;
       for (const Column& column : layout.columns) {
         const nc_type type = column.kind == Column::Kind::number ? NC_DOUBLE : column.kind == Column::Kind::text ? NC_STRING : NC_INT64;
         int& variable = variables_.emplace_back();
-        check(nc_def_var(file_, allowed(column.name).c_str(), type, 1, &dimension, &variable));
+        check(nc_def_var(file_, allowed(column.name, used).c_str(), type, 1, &dimension, &variable));
         check(nc_def_var_chunking(file_, variable, NC_CHUNKED, &chunk));
         constexpr std::size_t cache = 1 << 18, slots = 13;  // bytes for a few chunks: rows come one after the other
         check(nc_set_var_chunk_cache(file_, variable, cache, slots, 1));

@@ -46,7 +46,7 @@ def sample(scene, values, count, measure, kind, seed, correlations, accuracy, jo
     if not measures or not paths:
         raise ValueError("a Monte Carlo needs a distribution of at least one value, and at least one measure")
     vary = [f"{path}={_arguments.text(f'the distribution of {path!r}', values[path]).strip()}" for path in paths]
-    count, seed = _arguments.count("count", count), _arguments.count("seed", seed, least=0, most=2**64 - 1)
+    count, seed = _arguments.count("count", count), _arguments.count("seed", seed, least=0, most=10**9)
     points = _rheonet.DrawnPoints(vary, kind, count, seed, _arguments.correlations(correlations))
     coordinates = {path: _drawn(points, k) for k, path in enumerate(paths)}
     coordinates["run"] = np.arange(1, len(points) + 1)
