@@ -6,6 +6,7 @@
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <string_view>
 #include <system_error>
 
 #include "core/netlist/document.hpp"
@@ -16,14 +17,25 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// The table of a MAT file as CSV, by a part of rheonet that is loaded for it: tools/tables/mat.cpp.
+/// Whether a MAT file is of version 7.3, whose header has this version and a byte order at its end.
+bool is_mat_of_hdf5(const fs::path& file) {
+  char head[128] = {};
+  std::ifstream(file, std::ios::binary).read(head, sizeof head);
+  const std::string_view end(head + 124, 4);
+  return end == std::string_view("\0\2IM", 4) || end == std::string_view("\2\0MI", 4);
+}
+
+/// The table of a MAT file as CSV, by a part of rheonet that is loaded for it: tools/tables/mat_level5.cpp or mat_hdf5.cpp.
 std::optional<std::string> mat_as_csv(const fs::path& file, std::string& why) {
   using TableText = bool(const char* path, std::string& text, std::string& why);
-  void* const part = ::dlopen("librheonet_mat.so", RTLD_NOW | RTLD_LOCAL);  // stays loaded
+  const bool is_hdf5 = is_mat_of_hdf5(file);
+  const std::string library = is_hdf5 ? "librheonet_mat_hdf5.so" : "librheonet_mat.so", package = is_hdf5 ? "libmatio-dev" : "zlib1g-dev";
+  void* const part = ::dlopen(library.c_str(), RTLD_NOW | RTLD_LOCAL);  // stays loaded
   if (part == nullptr) {
     const char* const reason = ::dlerror();
-    why = std::string(".mat files need a part of rheonet that is missing: ") + (reason ? reason : "librheonet_mat.so") +
-          "; build rheonet with the Debian package libmatio-dev, or save the table as .csv";
+    why = (is_hdf5 ? ".mat files of version 7.3 need a part of rheonet that is missing: " : ".mat files need a part of rheonet that is missing: ") +
+          (reason ? reason : library) + "; build rheonet with the Debian package " + package + ", or save the table as " +
+          (is_hdf5 ? ".csv, or with `save -v7`" : ".csv");
     return {};
   }
   std::string text;
@@ -32,6 +44,10 @@ std::optional<std::string> mat_as_csv(const fs::path& file, std::string& why) {
 }
 
 }  // namespace
+
+bool is_netcdf(std::string_view text) {
+  return text.starts_with("\x89HDF") || text.starts_with("CDF\x01") || text.starts_with("CDF\x02") || text.starts_with("CDF\x05");
+}
 
 std::optional<std::string> read_text(const fs::path& file, std::string& why) {
   std::error_code ignored;

@@ -161,6 +161,10 @@ std::optional<TableFile> read_table_file(const TomlValue& name, const std::vecto
   if (!found) return {};
   const auto file = context.files.read(*found, Sources::Role::table, name.spot, context.diagnostics);
   if (!file) return {};
+  if (is_netcdf(context.files.text(*file))) {
+    context.diagnostics.error(name.spot, "`" + name.text + "` is a NetCDF or HDF5 file, but tables are read from CSV and MAT files", netcdf_hint);
+    return {};
+  }
   auto table = TableFileReader(*file, columns, abscissa, context).read();
   if (table && table->points.empty()) {
     context.diagnostics.error(name.spot, "the table `" + name.text + "` has no rows");

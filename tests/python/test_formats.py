@@ -2,10 +2,14 @@
 
 import io
 import os
+import random
 import re
+import resource
 import signal
+import struct
 import subprocess
 import time
+import zlib
 
 import numpy as np
 import pandas
@@ -201,3 +205,122 @@ def test_a_mat_file_that_is_no_table_is_refused(rheonet):
     assert "`rows.mat` cannot be read: it is no MAT file" in pulled(rheonet, "", 2).stderr
     io_.savemat(rheonet.folder / "rows.mat", {"t": [0.0, 2.0, 1.0], "f": [1.0, 2.0, 3.0]})
     assert "must not decrease" in pulled(rheonet, ', columns = ["t", "f"]', 2).stderr
+
+
+def savemat(path, data, **options):
+    pytest.importorskip("scipy.io").savemat(path, data, **options)
+
+
+def measured():
+    """Variables as SciPy writes them, of which `n`, `load`, and the columns of `curve` are a table."""
+    return {"n": np.arange(5), "load": np.array([1.5, -2, 3, 4e30, 0]), "curve": np.arange(10.0).reshape(5, 2), "remark": "text", "s": {"a": 1, "b": "x"}}
+
+
+def in_process(rheonet, contents, columns=', columns = ["n", "load"]'):
+    """The values of the table, or the message."""
+    (rheonet.folder / "rows.mat").write_bytes(contents)
+    try:
+        return package.loads(PULLED % columns, folder=rheonet.folder).run()["f1.force"].values.tolist()
+    except package.NetlistError as error:
+        return str(error)
+
+
+def variable_ends(contents):
+    """Where a file may be cut without a trace: after each variable."""
+    ends = [128]
+    while ends[-1] < len(contents):
+        ends.append(ends[-1] + 8 + struct.unpack_from("<I", contents, ends[-1] + 4)[0])
+    return ends
+
+
+@pytest.mark.parametrize("compressed", [False, True])
+def test_a_mat_file_that_is_cut_is_refused(rheonet, compressed):
+    savemat(rheonet.folder / "rows.mat", measured(), do_compression=compressed)
+    contents = (rheonet.folder / "rows.mat").read_bytes()
+    for size in set(range(len(contents))) - set(variable_ends(contents)):
+        said = in_process(rheonet, contents[:size])
+        assert isinstance(said, str), size
+        assert ("is damaged or cut" if size > 128 else "cannot be read") in said, size
+
+
+def test_a_mat_file_of_rheonet_that_is_cut_anywhere_is_refused(rheonet):
+    rheonet("run", "scene.toml", "-q", "--set", "simulate.output={ points = 5 }", "-o", "rows.mat")
+    contents = (rheonet.folder / "rows.mat").read_bytes()
+    columns = ', columns = ["time", "k1.force"]'
+    assert len(in_process(rheonet, contents, columns)) == 11
+    for size in range(len(contents)):
+        said = in_process(rheonet, contents[:size], columns)
+        assert isinstance(said, str) and "cannot be read" in said, size
+
+
+@pytest.mark.parametrize("compressed", [False, True])
+def test_a_mat_file_with_a_changed_byte_keeps_its_rows_or_is_refused(rheonet, compressed):
+    savemat(rheonet.folder / "rows.mat", measured(), do_compression=compressed)
+    contents = (rheonet.folder / "rows.mat").read_bytes()
+    drawn = random.Random(1)
+    read = 0
+    # A column that is no longer one, as its class or name is another, is named in the message, and all others keep 5 rows.
+    for at in range(116, len(contents)):
+        for value in {0, 1, 0x7F, 0xFF, drawn.randrange(256)} - {contents[at]}:
+            said = in_process(rheonet, contents[:at] + bytes([value]) + contents[at + 1:])
+            read += isinstance(said, list)
+            if compressed and at >= 136:  # zlib has a check sum
+                assert isinstance(said, str), (at, value)
+            elif isinstance(said, str):
+                assert any(text in said for text in ("cannot be read", "no column `", "decrease", "finite")), (at, value, said)
+    assert compressed or read > 100
+
+
+def test_numbers_of_all_classes_in_mat_files(rheonet):
+    for kind in ("int8", "uint8", "int16", "uint16", "int32", "uint32", "int64", "uint64", "float32", "float64"):
+        for options in ({}, {"do_compression": True}):
+            savemat(rheonet.folder / "rows.mat", {"n": np.arange(2, dtype=kind), "load": np.array([7, 107], dtype=kind)}, **options)
+            np.testing.assert_allclose(in_process(rheonet, (rheonet.folder / "rows.mat").read_bytes()), np.linspace(7, 107, 11), rtol=1e-12)
+    savemat(rheonet.folder / "rows.mat", {"n": np.arange(2), "load": np.array([False, True])})
+    np.testing.assert_allclose(in_process(rheonet, (rheonet.folder / "rows.mat").read_bytes()), np.linspace(0, 1, 11), atol=1e-12)
+
+
+def test_a_mat_file_with_the_other_byte_order(rheonet):
+    def element(kind, data):
+        return struct.pack(">II", kind, len(data)) + data + bytes(-len(data) % 8)
+
+    def vector(name, numbers):
+        size = element(5, struct.pack(">ii", len(numbers), 1))
+        word = struct.pack(">HH4s", len(name), 1, name)  # a small element
+        return element(14, element(6, struct.pack(">II", 6, 0)) + size + word + element(9, struct.pack(f">{len(numbers)}d", *numbers)))
+
+    header = b"MATLAB 5.0 MAT-file".ljust(124) + struct.pack(">H", 0x0100) + b"MI"
+    contents = header + vector(b"n", [0, 1]) + vector(b"load", [7, 9])
+    np.testing.assert_allclose(in_process(rheonet, contents), np.linspace(7, 9, 11), rtol=1e-12)
+    packed = zlib.compress(vector(b"load", [7, 9]))
+    contents = header + vector(b"n", [0, 1]) + struct.pack(">II", 15, len(packed)) + packed
+    np.testing.assert_allclose(in_process(rheonet, contents), np.linspace(7, 9, 11), rtol=1e-12)
+
+
+def test_a_mat_file_that_claims_gigabytes_is_refused(rheonet):
+    def bomb(claimed, rows, columns):
+        head = struct.pack("<II", 14, claimed) + struct.pack("<IIII", 6, 8, 9, 0) + struct.pack("<IIii", 5, 8, rows, columns)
+        packer = zlib.compressobj(9)
+        packed = packer.compress(head + struct.pack("<HH4s", 1, 1, b"n") + struct.pack("<II", 2, rows * columns))
+        packed += b"".join(packer.compress(bytes(1 << 20)) for _ in range(160)) + packer.flush()
+        return b"MATLAB 5.0 MAT-file".ljust(124) + struct.pack("<H", 0x0100) + b"IM" + struct.pack("<II", 15, len(packed)) + packed
+
+    before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss  # kB
+    size = 160 << 20
+    assert "too few for the size" in in_process(rheonet, bomb(0xFFFFFFF8, 1, size))
+    assert "of a different size" in in_process(rheonet, bomb(1 << 20, 1, size))
+    assert "too large for a table" in in_process(rheonet, bomb(48 + size, 1, size))
+    assert "too large for a table" in in_process(rheonet, bomb(48 + size, 2, size // 2))
+    assert resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before < 600_000
+
+
+def test_mat_files_of_level_4_and_netcdf_files_are_refused(rheonet):
+    savemat(rheonet.folder / "old.mat", {"t": np.arange(3.0), "f": np.arange(3.0)}, format="4")
+    assert "it is a MAT file of level 4; save it as level 5" in in_process(rheonet, (rheonet.folder / "old.mat").read_bytes())
+    for contents in (b"\x89HDF\r\n\x1a\n" + bytes(100), b"CDF\x01" + bytes(100)):
+        (rheonet.folder / "rows.nc").write_bytes(contents)
+        (rheonet.folder / "pulled.toml").write_text((PULLED % "").replace("rows.mat", "rows.nc"))
+        said = rheonet("run", "pulled.toml", "-q", status=2).stderr
+        assert "pulled.toml:3:60: error: `rows.nc` is a NetCDF or HDF5 file, but tables are read from CSV and MAT files" in said
+        done = rheonet("sweep", "scene.toml", "--list", "rows.nc", "-q", status=2)
+        assert "`--list rows.nc` is a NetCDF or HDF5 file" in done.stderr

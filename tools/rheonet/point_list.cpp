@@ -46,6 +46,8 @@ std::variant<std::shared_ptr<const PointList>, NoVariation> PointList::read(cons
   if (!in) return NoVariation{fmt::format("`--list {}` cannot be read: {}", file, why), ""};
   for (int number = 1; std::getline(*in, line); ++number) {
     if (number == 1) drop_byte_order_mark(line);
+    if (number == 1 && is_netcdf(line))
+      return NoVariation{fmt::format("`--list {}` is a NetCDF or HDF5 file, but lists are read from CSV and MAT files", file), netcdf_hint};
     if (is_csv_remark(line)) continue;
     const std::vector<CsvField> fields = csv_fields(line);
     if (list->paths_.empty()) {

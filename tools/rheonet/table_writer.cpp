@@ -16,7 +16,7 @@
 namespace rheonet::tool {
 namespace {
 
-constexpr TableFormat formats[] = {{".nc", "librheonet_netcdf.so", "libnetcdf-dev"}, {".mat", "librheonet_mat.so", "libmatio-dev"}};
+constexpr TableFormat formats[] = {{".nc", "librheonet_netcdf.so", "libnetcdf-dev"}, {".mat", "librheonet_mat.so", "zlib1g-dev"}};
 constexpr std::size_t rows_together = 8192;
 
 }  // namespace

@@ -1,11 +1,9 @@
 #include <fcntl.h>
-#include <matio.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cctype>
 #include <cerrno>
-#include <charconv>
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
@@ -17,6 +15,8 @@
 #include <set>
 #include <system_error>
 
+#include "tools/tables/mat_format.hpp"
+#include "tools/tables/mat_table.hpp"
 #include "tools/tables/table_file.hpp"
 
 namespace rheonet::tables {
@@ -62,10 +62,9 @@ File scratch_beside(const std::string& path) {
   return scratch;
 }
 
-// The format: MathWorks, "MAT-File Format", version 5. An element is a tag (type, bytes), and data padded to 8 bytes.
-enum class Type : std::uint32_t { int8 = 1, int32 = 5, uint32 = 6, float64 = 9, matrix = 14, utf8 = 16 };
-enum class Class : std::uint32_t { cell = 1, text = 4, float64 = 6 };
-constexpr std::size_t tag_size = 8;
+using mat::Class;
+using mat::tag_size;
+using mat::Type;
 
 std::size_t padded(std::size_t size) { return (size + 7) / 8 * 8; }
 
@@ -133,7 +132,7 @@ class Cells {
 
 /// MAT 5, which MATLAB, Octave and SciPy read. A column is a vector of that name; text is a vector of numbers, each the place of the text in
 /// the cell array NAME_texts, 0 for none. A vector begins with its length, so the rows wait in a temporary file, and the memory does
-/// not grow with their number. (libmatio takes whole vectors.)
+/// not grow with their number. 
 class MatFile : public TableFile {
  public:
   MatFile(const char* path, const Layout& layout)
@@ -191,11 +190,10 @@ class MatFile : public TableFile {
   }
 
   void put_header() {
-    constexpr std::size_t text_size = 124;
-    std::string text = "MATLAB 5.0 MAT-file, created by " + layout_.program;
-    text.resize(text_size, ' ');
+    std::string text = mat::header_text + layout_.program;
+    text.resize(mat::header_text_size, ' ');
     put(file_.get(), text.data(), text.size());
-    const std::uint16_t version_and_order[] = {0x0100, ('M' << 8) | 'I'};  // The reader sees "IM" if the bytes have to be swapped.
+    const std::uint16_t version_and_order[] = {mat::version, mat::byte_order};
     put(file_.get(), version_and_order, sizeof version_and_order);
   }
 
@@ -223,102 +221,17 @@ class MatFile : public TableFile {
   std::vector<Texts> texts_;  ///< Of each column.
 };
 
-struct Free {
-  void operator()(matvar_t* variable) const { Mat_VarFree(variable); }
-};
-using Variable = std::unique_ptr<matvar_t, Free>;
-
-/// The numbers of a vector or of each column of a matrix, as `name`, or as `name_1`, `name_2`, ...
-struct NamedColumn {
-  std::string name;
-  std::vector<double> numbers;
-};
-
-template <class Number>
-void append(std::vector<double>& numbers, const void* data, std::size_t from, std::size_t count) {
-  for (std::size_t k = 0; k < count; ++k) numbers.push_back(static_cast<double>(static_cast<const Number*>(data)[from + k]));
-}
-
-/// Part of a variable as numbers; false for a type that has none.
-bool append_numbers(const matvar_t& variable, std::size_t from, std::size_t count, std::vector<double>& numbers) {
-  switch (variable.class_type) {
-    case MAT_C_DOUBLE: append<double>(numbers, variable.data, from, count); return true;
-    case MAT_C_SINGLE: append<float>(numbers, variable.data, from, count); return true;
-    case MAT_C_INT8: append<std::int8_t>(numbers, variable.data, from, count); return true;
-    case MAT_C_UINT8: append<std::uint8_t>(numbers, variable.data, from, count); return true;
-    case MAT_C_INT16: append<std::int16_t>(numbers, variable.data, from, count); return true;
-    case MAT_C_UINT16: append<std::uint16_t>(numbers, variable.data, from, count); return true;
-    case MAT_C_INT32: append<std::int32_t>(numbers, variable.data, from, count); return true;
-    case MAT_C_UINT32: append<std::uint32_t>(numbers, variable.data, from, count); return true;
-    default: return false;
-  }
-}
-
-void add_columns(const matvar_t& variable, std::vector<NamedColumn>& columns) {
-  if (variable.rank != 2 || variable.isComplex || !variable.data) return;
-  const bool vector = variable.dims[0] == 1 || variable.dims[1] == 1;
-  const std::size_t rows = vector ? variable.dims[0] * variable.dims[1] : variable.dims[0], count = vector ? 1 : variable.dims[1];
-  for (std::size_t k = 0; k < count; ++k) {
-    NamedColumn column{variable.name + (vector ? "" : "_" + std::to_string(k + 1)), {}};
-    if (append_numbers(variable, k * rows, rows, column.numbers)) columns.push_back(std::move(column));
-  }
-}
-
-/// The texts of a cell array; empty if it has something else.
-std::vector<std::string> texts_of(mat_t* mat, const char* name) {
-  const Variable cell(Mat_VarRead(mat, name));
-  std::vector<std::string> texts;
-  if (!cell || cell->class_type != MAT_C_CELL) return texts;
-  for (std::size_t k = 0; k < cell->dims[0] * cell->dims[1]; ++k) {
-    const matvar_t* text = Mat_VarGetCell(cell.get(), static_cast<int>(k));
-    if (!text || text->class_type != MAT_C_CHAR || (text->data_type != MAT_T_UTF8 && text->data_type != MAT_T_UINT8 && text->data_type != MAT_T_INT8)) return {};
-    texts.emplace_back(static_cast<const char*>(text->data), text->nbytes);
-  }
-  return texts;
-}
-
-bool read_as_csv(const char* path, std::string& text, std::string& why) {
-  errno = 0;
-  const std::unique_ptr<mat_t, decltype(&Mat_Close)> mat(Mat_Open(path, MAT_ACC_RDONLY), &Mat_Close);
-  if (!mat) {
-    why = errno != 0 ? std::strerror(errno) : "it is no MAT file";
-    return false;
-  }
-  std::vector<NamedColumn> columns;
-  while (const Variable variable{Mat_VarReadNext(mat.get())}) add_columns(*variable, columns);
-  std::map<std::size_t, std::size_t> frequency;  // of each length
-  for (const NamedColumn& column : columns) ++frequency[column.numbers.size()];
-  const auto most = std::max_element(frequency.begin(), frequency.end(), [](const auto& a, const auto& b) { return a.second <= b.second; });
-  const std::size_t rows = most == frequency.end() ? 0 : most->first;
-  std::erase_if(columns, [rows](const NamedColumn& column) { return column.numbers.size() != rows; });
-  if (columns.empty() || rows == 0) {
-    why = "it has no vector of numbers";
-    return false;
-  }
-  // A file of rheonet has the names of records, and their units.
-  const std::vector<std::string> names = texts_of(mat.get(), "columns"), units = texts_of(mat.get(), "units");
-  if (names.size() == columns.size() && units.size() == columns.size()) {
-    for (std::size_t k = 0; k < columns.size(); ++k) columns[k].name = names[k] + (units[k].empty() ? "" : " [" + units[k] + "]");
-  }
-  for (std::size_t k = 0; k < columns.size(); ++k) text += (k > 0 ? ",\"" : "\"") + columns[k].name + '"';
-  text += '\n';
-  for (std::size_t row = 0; row < rows; ++row) {
-    char number[32];  // 17 digits, sign, point and exponent
-    for (std::size_t k = 0; k < columns.size(); ++k) {
-      const auto written = std::to_chars(number, number + sizeof number, columns[k].numbers[row]);
-      if (k > 0) text += ',';
-      text.append(number, written.ptr);
-    }
-    text += '\n';
-  }
-  return true;
-}
-
 }  // namespace
 }  // namespace rheonet::tables
 
 extern "C" __attribute__((visibility("default"))) bool table_text(const char* path, std::string& text, std::string& why) {
-  return rheonet::tables::read_as_csv(path, text, why);
+  try {
+    text = rheonet::tables::as_csv(rheonet::tables::read_level5(path));
+    return true;
+  } catch (const rheonet::tables::MatError& error) {
+    why = error.what();
+    return false;
+  }
 }
 
 extern "C" __attribute__((visibility("default"))) rheonet::tables::TableFile* open_table_file(const char* path, const rheonet::tables::Layout& layout) {
