@@ -4,8 +4,20 @@ namespace rheonet::tables::mat {
 
 namespace {
 
-bool has_control_characters(const std::string& text) {
-  return std::any_of(text.begin(), text.end(), [](unsigned char c) { return c < ' '; });
+/// Whether a text is UTF-8 (RFC 3629) without control characters.
+bool is_line(std::string_view text) {
+  for (std::size_t at = 0; at < text.size();) {
+    const auto byte = [&](std::size_t k) { return at + k < text.size() ? static_cast<unsigned char>(text[at + k]) : 0U; };
+    const unsigned first = byte(0), second = byte(1);
+    const std::size_t length = first < 0x80 ? 1 : first < 0xC2 ? 0 : first < 0xE0 ? 2 : first < 0xF0 ? 3 : first < 0xF5 ? 4 : 0;
+    if (length == 0 || first < ' ') return false;
+    for (std::size_t k = 1; k < length; ++k)
+      if ((byte(k) & 0xC0U) != 0x80U) return false;
+    // Longer than need be, a surrogate, or beyond the last character.
+    if ((first == 0xE0 && second < 0xA0) || (first == 0xED && second >= 0xA0) || (first == 0xF0 && second < 0x90) || (first == 0xF4 && second >= 0x90)) return false;
+    at += length;
+  }
+  return true;
 }
 
 }  // namespace
@@ -61,7 +73,7 @@ std::optional<Array> array_of(std::string_view bytes, bool is_swapped) {
     array.size.push_back(static_cast<std::size_t>(length));
   }
   array.name = elements.next({Type::int8, Type::uint8, Type::utf8}, "the name of an array");
-  if (has_control_characters(array.name)) throw Damage("a name has control characters");
+  if (!is_line(array.name)) throw Damage("a name is not readable text");
   array.data = elements;
   return array;
 }
@@ -98,7 +110,7 @@ std::optional<std::string> text_of(std::string_view bytes, bool is_swapped) {
   const auto least = is_utf16 ? most : static_cast<double>(std::count_if(data.bytes.begin(), data.bytes.end(), is_character));
   if (cell->entries() < least || cell->entries() > most) throw Damage("a text has a different length from its size");
   const std::string text = is_utf16 ? utf8_of(data.bytes, is_swapped) : std::string(data.bytes);
-  return has_control_characters(text) ? std::nullopt : std::optional(text);
+  return is_line(text) ? std::optional(text) : std::nullopt;
 }
 
 }  // namespace
