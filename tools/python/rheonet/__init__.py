@@ -121,7 +121,7 @@ class Scene:
         client: a dask.distributed.Client, on whose workers the runs are simulated. They get the files as they were when the scene was loaded;
             files that only some values name they have to find themselves.
         on_error: "nan" for NaN where a run cannot be read or simulated, with a RuntimeWarning and the reasons in the variable "error";
-            "raise" to raise the first error.
+            "raise" to raise the error of the run that fails first in time.
 
         Returns an xarray.Dataset with a dimension and a coordinate for each parameter: numbers if all values have one unit (in
         the attribute "units"; absent for numbers and expressions without a unit, which are SI), else text. It holds either the measures, or
