@@ -20,10 +20,10 @@ if [ $# -eq 2 ]; then
 else
   package=$1
 fi
-# Libraries: no headers, no programs, nothing of MPI or PETSc.
+# Libraries, whose packages begin with `lib` but for zlib1g: no headers, no programs, nothing of MPI or PETSc.
 depends=$(dpkg-deb --field "$package" Depends)
 echo "depends on $depends"
-if tr ',' '\n' <<<"$depends" | sed 's/^ *//; s/ .*//' | grep -vE '^lib[a-z0-9.+-]*$' || grep -E -- '-dev|mpi|petsc' <<<"$depends"; then
+if tr ',' '\n' <<<"$depends" | sed 's/^ *//; s/ .*//' | grep -vE '^(lib[a-z0-9.+-]*|zlib1g)$' || grep -E -- '-dev|mpi|petsc' <<<"$depends"; then
   echo "these are not libraries"
   exit 1
 fi
