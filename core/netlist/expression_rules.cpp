@@ -80,12 +80,13 @@ Number ExpressionRules::look_up(const ExpressionCode::Variable& variable, const 
   if (is_pi(name)) unknown("write `pi`");
   if (const ExpressionFunction* function = find_function(name))
     unknown(fmt::format("`{0}` is a function: write `{0}({1})`", name, function->arguments));
-  if (environment.known.empty() && std::holds_alternative<Unit>(parse_unit(name)))
-    fail(at, fmt::format("there is no parameter `{}`, and a unit cannot stand in an expression", name),
-         fmt::format("a quantity is one number, a space and a unit: \"0.5 {}\"; give it a name in `[parameters]`, and use that here", name));
   std::vector<std::string> names{"pi"};
   add_names(environment, names);
   const std::string meant = nearest(name, names);
+  const bool may_be_unit = environment.known.empty() || meant.empty();  // "u2" beside "u1" is no unit of mass
+  if (may_be_unit && std::holds_alternative<Unit>(parse_unit(name)))
+    fail(at, fmt::format("there is no parameter `{}`, and a unit cannot stand in an expression", name),
+         environment.known.empty() ? fmt::format("a quantity is one number, a space and a unit: \"0.5 {}\"; give it a name in `[parameters]`, and use that here", name) : environment.known);
   const std::string known = environment.known.empty() && meant.empty() ? "it must be a parameter" : environment.known;
   fail(at, fmt::format("unknown name `{}`", name), (meant.empty() ? "" : fmt::format("did you mean `{}`?", meant) + (known.empty() ? "" : " ")) + known);
 }
