@@ -30,7 +30,7 @@ class TemporaryFile {
   std::string contents_;
   std::once_flag created_;
   int file_ = -1;
-  std::atomic<std::int64_t> end_ = 0;  ///< Of what was appended.
+  std::atomic<std::int64_t> end_ = 0;  ///< where the appended bytes end
 };
 
 }  // namespace rheonet

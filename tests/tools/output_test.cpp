@@ -118,6 +118,8 @@ TEST_CASE("two outputs to one place are refused, by whatever names") {
     CAPTURE(options);
     CHECK(contains(folder.shell("rheonet run scene.toml " + options + " > both.txt", 2).err, "both write to standard output"));
   }
+  const std::string sweep = "rheonet sweep scene.toml --vary 'k1.stiffness=normal(100 N/m, 1 %)' --random 4 --measure steps ";
+  CHECK(contains(folder.shell(sweep + "-o /dev/stdout --statistics - > both.txt", 2).err, "`--output` and `--statistics` both write to standard output"));
 }
 
 TEST_CASE("a file without a name is a mistake of the command line") {

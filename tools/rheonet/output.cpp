@@ -298,6 +298,26 @@ bool can_be_table(const std::string& path, const char* option, bool any_format) 
   return false;
 }
 
+bool write_to_one_file(const std::vector<std::pair<const char*, std::string>>& outputs) {
+  namespace fs = std::filesystem;
+  const auto place_of = [](const std::string& name) { return name == "-" ? std::string("/dev/stdout") : name; };
+  const auto same = [&](const std::string& one, const std::string& other) {
+    std::error_code failed;
+    return (one == "-" && other == "-") || (fs::equivalent(place_of(one), place_of(other), failed) && fs::is_regular_file(place_of(one), failed));
+  };
+  for (std::size_t i = 0; i < outputs.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k) {
+      const auto& [first, path] = outputs[k];
+      const auto& [second, other] = outputs[i];
+      if (!same(path, other)) continue;
+      say("error: `{}` and `{}` both write to {}; give one of them another file\n", first, second,
+          path == "-" || other == "-" ? "standard output" : "`" + printable(path) + "`");
+      return true;
+    }
+  }
+  return false;
+}
+
 bool can_be_json(const std::string& path, const char* option) {
   if (path.empty() || path == "-" || path.ends_with(".json")) return true;
   say("error: `{} {}` is not a .json\n", option, printable(path));

@@ -4,6 +4,8 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "tools/rheonet/replacement.hpp"
 #include "tools/rheonet/table_writer.hpp"
@@ -92,6 +94,9 @@ bool write_all(Output& output, const std::string& text, const char* row);
 /// Whether rows can be written to a file of this name, as CSV, or with `any_format` also in the formats of `table_format`. Prints an error
 /// if the ending is that of another format. `option` is the option that names the file: "--output".
 bool can_be_table(const std::string& path, const char* option, bool any_format = false);
+
+/// Whether two of the outputs, options with their open files ("" for none), go to one file, where they would overwrite each other. Prints an error if so.
+bool write_to_one_file(const std::vector<std::pair<const char*, std::string>>& outputs);
 
 /// Whether JSON can be written to a file of this name ("": no file is asked for). Prints an error if the ending is not .json.
 bool can_be_json(const std::string& path, const char* option);

@@ -2,13 +2,10 @@
 
 #include <algorithm>
 #include <cstring>
-#include <filesystem>
-#include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <thread>
-#include <system_error>
 
 #include "core/netlist/characters.hpp"
 #include "core/result/certify.hpp"
@@ -31,31 +28,6 @@
 
 namespace rheonet::tool {
 namespace {
-
-namespace fs = std::filesystem;
-
-// Two streams to one file would overwrite each other.
-bool same_file(const std::string& path, const std::string& other) {
-  std::error_code error;
-  if (path == "-" && other == "-") return true;
-  const auto in_folders = [](const std::string& name) { return name == "-" ? std::string("/dev/stdout") : name; };
-  return fs::equivalent(in_folders(path), in_folders(other), error) && fs::is_regular_file(in_folders(path), error);
-}
-
-/// Whether two outputs go to the same file; prints an error if so.
-bool write_to_one_file(const Arguments& arguments) {
-  const std::pair<const char*, const std::string&> outputs[] = {
-      {"--output", arguments.output}, {"--events", arguments.events}, {"--plot", arguments.figure}, {"--summary", arguments.summary}};
-  for (std::size_t i = 0; i < std::size(outputs); ++i)
-    for (std::size_t k = 0; k < i; ++k) {
-      if (!same_file(outputs[k].second, outputs[i].second)) continue;
-      const std::string& path = outputs[k].second;
-      say("error: `{}` and `{}` both write to {}; give one of them another file\n", outputs[k].first, outputs[i].first,
-          path == "-" || outputs[i].second == "-" ? "standard output" : "`" + printable(path) + "`");
-      return true;
-    }
-  return false;
-}
 
 /// The output files of a run.
 struct Outputs {
@@ -132,7 +104,8 @@ ExitStatus run_scene(const Arguments& arguments) {
     outputs.summary = open_output(arguments.summary, Output::Writing::complete);
     if (!outputs.summary) return wrong_input;
   }
-  if (write_to_one_file(arguments)) return wrong_input;
+  if (write_to_one_file({{"--output", arguments.output}, {"--events", arguments.events}, {"--plot", arguments.figure}, {"--summary", arguments.summary}}))
+    return wrong_input;
 
   std::optional<RunFigure> figure;
   BothSides sides([&figure](double time, const std::vector<double>& values) { figure->row(time, values); });

@@ -237,7 +237,7 @@ ExitStatus SweepJob::go() {
   const bool as_it_comes = options_.merge.empty() && !table_format(arguments_.output);
   output_ = as_it_comes ? open_output_after(arguments_.output, left.bytes, left.lines)
                         : open_table(arguments_.output, Output::Writing::complete, sweep_.layout());
-  if (!output_) return wrong_input;
+  if (!output_ || write_to_one_file({{"--output", arguments_.output}, {"--statistics", options_.statistics}})) return wrong_input;
   const int processors = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   jobs_ = options_.jobs > 0 ? options_.jobs : processors;
   const auto start = std::chrono::steady_clock::now();

@@ -225,13 +225,7 @@ class MatFile : public TableFile {
 }  // namespace rheonet::tables
 
 extern "C" __attribute__((visibility("default"))) bool table_text(const char* path, std::string& text, std::string& why) {
-  try {
-    text = rheonet::tables::as_csv(rheonet::tables::read_level5(path));
-    return true;
-  } catch (const rheonet::tables::MatError& error) {
-    why = error.what();
-    return false;
-  }
+  return rheonet::tables::table_text(&rheonet::tables::read_level5, path, text, why);
 }
 
 extern "C" __attribute__((visibility("default"))) rheonet::tables::TableFile* open_table_file(const char* path, const rheonet::tables::Layout& layout) {

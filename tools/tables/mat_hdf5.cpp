@@ -81,11 +81,5 @@ MatTable read_hdf5(const char* path) {
 }  // namespace rheonet::tables
 
 extern "C" __attribute__((visibility("default"))) bool table_text(const char* path, std::string& text, std::string& why) {
-  try {
-    text = rheonet::tables::as_csv(rheonet::tables::read_hdf5(path));
-    return true;
-  } catch (const rheonet::tables::MatError& error) {
-    why = error.what();
-    return false;
-  }
+  return rheonet::tables::table_text(&rheonet::tables::read_hdf5, path, text, why);
 }

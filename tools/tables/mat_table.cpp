@@ -34,4 +34,14 @@ std::string as_csv(MatTable table) {
   return text;
 }
 
+bool table_text(MatTable (*read)(const char* path), const char* path, std::string& text, std::string& why) {
+  try {
+    text = as_csv(read(path));
+    return true;
+  } catch (const MatError& error) {
+    why = error.what();
+    return false;
+  }
+}
+
 }  // namespace rheonet::tables

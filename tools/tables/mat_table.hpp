@@ -11,7 +11,7 @@ struct MatError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// What a table needs of a MAT file.
+/// The content of a MAT file from which a table is made.
 struct MatTable {
   struct Column {
     std::string name;
@@ -36,6 +36,9 @@ void add_columns(MatTable& table, const std::string& name, std::size_t rows, std
 /// The columns of the most frequent length as CSV, with the names and units of rheonet if there are any. Throws MatError if there is no
 /// column, or if a file of rheonet has lost names.
 std::string as_csv(MatTable table);
+
+/// Reads a file with `read` and makes it CSV. Returns false and the reason if that throws MatError.
+bool table_text(MatTable (*read)(const char* path), const char* path, std::string& text, std::string& why);
 
 /// Reads a MAT file of level 5, which MATLAB writes up to version 7, SciPy and Octave. Every size is compared with the bytes that are left before it
 /// is used. Throws MatError.

@@ -83,7 +83,7 @@ class _Runs:
         self._kept = None  # the number of a run that is kept, its units and, of rows, their times: those of all
         self._results = {}
         self._reasons = {}
-        self._first_error = None
+        self._first_failure = None  # the number and the error of the first run that failed
         run = functools.partial(_outcome, scene, paths, measures, accuracy, on_error == "raise", client is not None)
         if client is None:
             _parallel.in_threads(run, points, jobs, self._keep)
@@ -93,8 +93,8 @@ class _Runs:
 
     def _keep(self, number, outcome):
         if isinstance(outcome, Exception):
-            if self._first_error is None or number < min(self._reasons):
-                self._first_error = outcome  # of the others only the message is kept, for an error may hold rows
+            if self._first_failure is None or number < self._first_failure[0]:
+                self._first_failure = number, outcome  # of the others only the message is kept, for an error may hold rows
             self._reasons[number] = outcome.message
         elif self._measures:
             self._compare(number, {name: claim["unit"] for name, claim in zip(self._measures, outcome)})
@@ -108,27 +108,29 @@ class _Runs:
         if self._kept is None:
             self._kept = number, units, times
         first, units_of_first, times_of_first = self._kept
+        if list(units.items()) == list(units_of_first.items()) and np.array_equal(times, times_of_first):
+            return
         runs = "the runs {} and {}".format(*(self._points[place] for place in sorted((first, number))))
         if list(units) != list(units_of_first):
             raise ValueError(f"{runs} have different records; give `measure`")
         for name, unit in units.items():
             if unit != units_of_first[name]:
                 raise ValueError(f"{name!r} has the unit {units_of_first[name]} in one of {runs}, and {unit} in the other")
-        if not np.array_equal(times, times_of_first):
-            raise ValueError(
-                f"the rows of {runs} are at different times; give `measure`, or let `simulate.output` and `simulate.stop` be the same in all runs"
-            )
+        raise ValueError(
+            f"the rows of {runs} are at different times; give `measure`, or let `simulate.output` and `simulate.stop` be the same in all runs"
+        )
 
     def _tell_failures(self, paths):
         if not self._reasons:
             return
+        number, error = self._first_failure
         if len(self._reasons) == len(self._points):
             if len(self._points) > 1:
-                self._first_error.add_note(f"and all other runs of {len(self._points)} failed as well")
-            raise self._first_error
+                error.add_note(f"and all other runs of {len(self._points)} failed as well")
+            raise error
         warnings.warn(
-            f"{len(self._reasons)} of {len(self._points)} runs failed, as the one with {dict(zip(paths, self._points[min(self._reasons)]))}: "
-            f"{self._first_error.message}; the variable `error` has the reasons",
+            f"{len(self._reasons)} of {len(self._points)} runs failed, as the one with {dict(zip(paths, self._points[number]))}: "
+            f"{error.message}; the variable `error` has the reasons",
             RuntimeWarning,
             stacklevel=5,
         )
