@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <functional>
 #include <memory>
 #include <span>
 #include <unordered_map>
@@ -28,6 +29,7 @@ class Evaluation {
 
   Result run() {
     if (code_.error) return *code_.error;
+    stack_.reserve(code_.instructions.size());
     for (std::size_t at = 0; at < code_.instructions.size(); ++at) {
       const ExpressionCode::Instruction& instruction = code_.instructions[at];
       if (instruction.op == Op::unless_jump) {
@@ -71,14 +73,18 @@ class Evaluation {
   bool infinite_ = false;  ///< one of the variables is "inf"
 };
 
+struct TextHash {
+  using is_transparent = void;
+  std::size_t operator()(std::string_view text) const { return std::hash<std::string_view>()(text); }
+};
+
 /// Caches compiled expressions: the members of a `repeat` evaluate the same text thousands of times.
 std::shared_ptr<const ExpressionCode> code_of(std::string_view text) {
-  static thread_local std::unordered_map<std::string, std::shared_ptr<const ExpressionCode>> codes;
+  static thread_local std::unordered_map<std::string, std::shared_ptr<const ExpressionCode>, TextHash, std::equal_to<>> codes;
   constexpr std::size_t most = 512;  // a few kB each; more expressions than a person writes
-  std::string key(text);
-  if (const auto known = codes.find(key); known != codes.end()) return known->second;
+  if (const auto known = codes.find(text); known != codes.end()) return known->second;
   if (codes.size() >= most) codes.clear();
-  return codes[std::move(key)] = std::make_shared<const ExpressionCode>(compile_expression(text));
+  return codes[std::string(text)] = std::make_shared<const ExpressionCode>(compile_expression(text));
 }
 
 }  // namespace

@@ -51,6 +51,7 @@ void add_names(const Environment& environment, std::vector<std::string>& names) 
 }  // namespace
 
 ExpressionRules::ExpressionRules(std::string_view text, const ExpressionCode& code, const Environment& environment) : text_(text), code_(code) {
+  variables_.reserve(code.variables.size());
   for (const ExpressionCode::Variable& variable : code.variables) {
     Number number = look_up(variable, environment);
     united_ = united_ || !number.plain;

@@ -61,6 +61,8 @@ class Adviser {
   }
 
   void compare_names() {
+    const auto has_capital = [](const SceneNode& node) { return without_capitals(node.name) != node.name; };
+    if (std::none_of(scene_.nodes.begin(), scene_.nodes.end(), has_capital)) return;
     std::unordered_map<std::string, std::size_t> first;
     for (std::size_t n = 1; n < scene_.nodes.size(); ++n) {
       const auto [other, is_first] = first.emplace(without_capitals(scene_.nodes[n].name), n);

@@ -15,11 +15,10 @@ namespace rheonet {
 
 void tell_lost_times(Network& network) {
   for (const SceneElement& element : network.scene->elements) {
-    const std::vector<double> values = resolved_values(*network.scene, element);
-    if (!left_out_of(*network.scene, element).empty()) continue;  // left out on request, see tell_left_out
-    for (std::size_t k = 0; k < values.size(); ++k) {
-      if (values[k] != 0 || !(element.values[k] > 0)) continue;
-      const Declaration& declared = components()[static_cast<std::size_t>(element.declaration)]->declaration;
+    const Declaration& declared = components()[at(element.declaration)]->declaration;
+    for (std::size_t k = 0; k < element.values.size(); ++k) {
+      if (!is_lost(*network.scene, declared.parameters[k], element.values[k])) continue;
+      if (!left_out_of(*network.scene, element).empty()) break;  // left out on request, see tell_left_out
       network.notes.push_back(fmt::format("`{}` of {:.3g} s is left out: it is less than what tells the times of this run apart",
                                           element.name + "." + declared.parameters[k].name, element.values[k]));
     }
@@ -39,19 +38,18 @@ void tell_left_out(Network& network) {
   if (!told.empty()) network.notes.push_back(fmt::format("left out of this run: {}", fmt::join(told, ", ")));
 }
 
-void tell_meaningless(Network& network) {
+void tell_meaningless(Network& network, const std::vector<Reduced>& laws) {
   const Scene& scene = *network.scene;
   std::vector<std::pair<std::string, std::vector<std::string>>> told;  // reason, and the paths of the parameters
-  for (const SceneElement& element : scene.elements) {
+  for (std::size_t e = 0; e < laws.size(); ++e) {
+    const SceneElement& element = scene.elements[e];
     const Component& component = *components()[at(element.declaration)];
-    if (component.limits.empty() || element.given.none()) continue;
+    if (!laws[e].limit || element.given.none()) continue;
     const std::vector<double> values = resolved_values(scene, element);
-    std::vector<const Limit*> taken;
-    const Reduced law = take_limits(&component, values, &taken);
-    if (taken.empty()) continue;
+    const Reduced law = take_limits(&component, values);
     for (const std::size_t k : without_meaning(component, values)) {
       if (!element.given.test(k)) continue;
-      const std::string why = left_out_of(scene, element).empty() ? taken.front()->when : "without what the scene leaves out";
+      const std::string why = left_out_of(scene, element).empty() ? law.limit->when : "without what the scene leaves out";
       const std::string reason = fmt::format("to {} ({})", name_of(law), why);
       auto found = std::find_if(told.begin(), told.end(), [&](const auto& t) { return t.first == reason; });
       if (found == told.end()) found = told.insert(found, {reason, {}});

@@ -10,7 +10,7 @@ namespace rheonet {
 void tell_lost_times(Network& network);
 /// The effects that the scene leaves out.
 void tell_left_out(Network& network);
-/// Values given in the netlist that have no effect at the limits of the laws to which they belong.
-void tell_meaningless(Network& network);
+/// Values given in the netlist that have no effect at the limits of the laws to which they belong. `laws` has one of each element.
+void tell_meaningless(Network& network, const std::vector<Reduced>& laws);
 
 }  // namespace rheonet

@@ -39,8 +39,8 @@ std::optional<MotionExpression> over_velocity(const Component& component, const 
 }
 
 Box constant_box(const Component& component, std::span<const double> values) {
-  std::vector<Dual> constant(values.begin(), values.end());
-  constant.resize(component.declaration.parameters.size(), not_given);
+  std::vector<Dual> constant(component.declaration.parameters.size(), not_given);
+  std::copy(values.begin(), values.end(), constant.begin());
   return component.box(constant);
 }
 

@@ -42,8 +42,7 @@ class FreeEndSearch {
 
   FreeEnds find() {
     find_held();
-    // Shortcut for the common case: every node is held.
-    if (std::find(held_.begin(), held_.end(), 0) == held_.end()) return std::move(result_);
+    if (all_held_or_between_held()) return std::move(result_);
     find_hanging();
     if (any_hangs()) let_stressed_go();
     for (std::size_t e = 0; e < laws_.size(); ++e) {
@@ -74,6 +73,26 @@ class FreeEndSearch {
       if (role != Role::mass && role != Role::motion && role != Role::force && role != Role::train) continue;
       for_each_node(scene_.elements[e], [this](NodeId node) { held_[at(node)] = 1; });
     }
+  }
+
+  /// The common case, without a graph: a node that joins two different held nodes does not hang.
+  bool all_held_or_between_held() const {
+    constexpr NodeId none = -1, several = -2;
+    std::vector<NodeId> neighbour(held_.size(), none);
+    const auto meet = [&](NodeId node, NodeId other) {
+      if (!held_[at(other)]) return;
+      NodeId& met = neighbour[at(node)];
+      met = met == none || met == other ? other : several;
+    };
+    for (std::size_t e = 0; e < laws_.size(); ++e) {
+      if (!joins_ends(role_of(laws_[e]))) continue;
+      meet(scene_.elements[e].a, scene_.elements[e].b);
+      meet(scene_.elements[e].b, scene_.elements[e].a);
+    }
+    for (std::size_t n = 0; n < held_.size(); ++n) {
+      if (!held_[n] && neighbour[n] != several) return false;
+    }
+    return true;
   }
 
   /// Hanging nodes share no biconnected component with the auxiliary node `above`, which is joined to every held node.

@@ -10,13 +10,14 @@
 
 namespace rheonet {
 
-Reduced take_limits(const Component* component, std::vector<double> values, std::vector<const Limit*>* taken) {
+Reduced take_limits(const Component* component, std::vector<double> values) {
+  const Limit* first = nullptr;
   while (true) {
     const auto limit = std::find_if(component->limits.begin(), component->limits.end(),
                                     [&](const Limit& l) { return l.applies(values); });
-    if (limit == component->limits.end()) return {component, std::move(values), nullptr};
-    if (taken) taken->push_back(&*limit);
-    if (limit->becomes.empty()) return {nullptr, {}, nullptr};
+    if (limit == component->limits.end()) return {component, std::move(values), nullptr, first};
+    if (!first) first = &*limit;
+    if (limit->becomes.empty()) return {nullptr, {}, nullptr, first};
     values = limit->values(values);
     component = find_component(limit->becomes);
     values.resize(component->declaration.parameters.size(), not_given);
@@ -41,10 +42,9 @@ std::array<double, 2> ordinary_values(const Parameter& p) {
 }  // namespace
 
 std::vector<std::size_t> without_meaning(const Component& component, const std::vector<double>& values) {
-  std::vector<const Limit*> taken;
-  const Reduced law = take_limits(&component, values, &taken);
+  const Reduced law = take_limits(&component, values);
   std::vector<std::size_t> result;
-  if (taken.empty() || !law.component) return result;
+  if (!law.limit || !law.component) return result;
   const std::vector<Parameter>& parameters = component.declaration.parameters;
   for (std::size_t k = 0; k < parameters.size(); ++k) {
     const Parameter& p = parameters[k];

@@ -13,13 +13,14 @@ struct Reduced {
   const Component* component;  ///< nullptr: no force at all
   std::vector<double> values;
   std::shared_ptr<const Characteristic> characteristic = nullptr;
+  const Limit* limit = nullptr;  ///< the first that was taken, if any
 
   /// For a batch of this element alone. This must outlive it.
   Values batch() const { return {{values, characteristic.get()}}; }
 };
 
-/// Applies the limits of a component with these values one after the other, and appends them to `taken`.
-Reduced take_limits(const Component* component, std::vector<double> values, std::vector<const Limit*>* taken = nullptr);
+/// Applies the limits of a component with these values one after the other.
+Reduced take_limits(const Component* component, std::vector<double> values);
 
 /// "a `dashpot`", "a rigid link": name of a law that has a force.
 std::string name_of(const Reduced& law);

@@ -28,11 +28,11 @@ void refuse_varying(const SceneElement& element, const Reduced& law) {
 }  // namespace
 
 Reduced law_of(const Scene& scene, const SceneElement& element) {
-  const std::vector<double> values = resolved_values(scene, element);
-  Reduced law = take_limits(components()[at(element.declaration)], values);
-  if (element.has_row()) return {find_component(law.component->with_row), {}};
+  std::vector<double> values = resolved_values(scene, element);
   const Component* declared = components()[at(element.declaration)];
   const bool varies = declared->varying && std::any_of(element.signal_parameters.begin(), element.signal_parameters.end(), [&](int k) { return std::isnan(values[at(k)]); });
+  Reduced law = take_limits(declared, std::move(values));
+  if (element.has_row()) return {find_component(law.component->with_row), {}, nullptr, law.limit};
   if (varies && law.component == declared) law.component = find_component("law");
   if (varies && law.component && law.component->role != Role::force) refuse_varying(element, law);
   if (law.component && element.characteristics) law.characteristic = element.characteristics->begin()->second;

@@ -372,7 +372,7 @@ Network build_network(const Scene& scene) {
   number_nodes(network);
   tell_lost_times(network);
   tell_left_out(network);
-  tell_meaningless(network);
+  tell_meaningless(network, laws);
   for (std::string& note : tell_free_ends(scene, network.free_ends)) network.notes.push_back(std::move(note));
   std::vector<char> named(network.nodes(), 0);
   const auto node_of = [&](NodeId node) { return network.node_of[static_cast<std::size_t>(node)]; };

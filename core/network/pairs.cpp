@@ -1,6 +1,7 @@
 #include "core/network/pairs.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/base/index.hpp"
@@ -15,8 +16,8 @@ namespace {
 struct Touch {
   int count = 0;
   int spring = -1, slider = -1;
-  bool firm = false;          ///< ground, a mass or a motion: its start value is independent of its neighbours
-  std::vector<double> start;  ///< where it may start [m]; NaN if its start follows from other values
+  bool firm = false;            ///< ground, a mass or a motion: its start value is independent of its neighbours
+  std::array<double, 2> start;  ///< where it may start, before and after a step [m]; NaN if its start follows from other values
 };
 
 bool is_spring(const Reduced& law) { return law.component && law.component->spring; }
@@ -44,7 +45,7 @@ std::vector<Touch> touches(const Scene& scene, const std::vector<Reduced>& laws)
   result[ground].firm = true;
   for (std::size_t n = 0; n < result.size(); ++n) {
     const double given = scene.nodes[n].position;
-    result[n].start.push_back(std::isnan(given) ? 0 : given);
+    result[n].start.fill(std::isnan(given) ? 0 : given);
   }
   for (std::size_t e = 0; e < laws.size(); ++e) {
     const SceneElement& element = scene.elements[e];
@@ -59,7 +60,7 @@ std::vector<Touch> touches(const Scene& scene, const std::vector<Reduced>& laws)
       if (role == Role::motion && prescribes(element, Quantity::position)) {
         t.start = {element.signals.at(0).before(scene.start), element.signals.at(0).value(scene.start)};
       }
-      if (starts_displaced(scene, e)) t.start = {not_given};
+      if (starts_displaced(scene, e)) t.start.fill(not_given);
     };
     for_each_node(element, touch);
   }

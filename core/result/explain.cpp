@@ -165,12 +165,11 @@ class Explainer {
 
   void find_limits() {
     for (const SceneElement& e : scene_.elements) {
-      std::vector<const Limit*> taken;
-      const Reduced law = take_limits(components()[at(e.declaration)], resolved_values(scene_, e), &taken);
-      if (taken.empty()) continue;
+      const Reduced law = take_limits(components()[at(e.declaration)], resolved_values(scene_, e));
+      if (!law.limit) continue;
       const std::vector<Effect> out = left_out_of(scene_, e);
       const std::string type = components()[at(e.declaration)]->declaration.type;
-      std::string reason = taken.front()->when;
+      std::string reason = law.limit->when;
       if (!out.empty()) {
         std::vector<std::string> words;
         for (const Effect effect : out) words.push_back(in_words(effect));

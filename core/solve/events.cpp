@@ -293,9 +293,10 @@ void NetworkEvents::look_at_step(const Integrator& integrator, double a, double 
     left_.swap(right_);
   else
     look(a, left_);
-  look((a + b) / 2, middle_);
-  all_at(seen_between(b, integrator.y().data(), integrator.yp().data()), right_);
+  const double *y = integrator.y().data(), *yp = integrator.yp().data();
+  all_at(any_at_rest_ ? resolved(b, y, yp) : dae_.view_again(b, y, yp), right_);  // first: the view of the end is the present one
   right_time_ = b;
+  look((a + b) / 2, middle_);
 }
 
 const Dae::View& NetworkEvents::seen_between(double t, const double* y, const double* yp) {

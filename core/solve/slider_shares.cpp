@@ -17,6 +17,7 @@ void Tolerances::see_rest(std::size_t slider, double velocity) {
 /// The force of a slider at rest is the sum of the forces around it. These may have been many times larger while it slipped,
 /// and their errors shift the position at which it stops: tolerances around it are relative to its own bound.
 void Tolerances::find_slider_shares() {
+  slider_share_.assign(quantity_.size(), 1);
   if (!any_rested_) return;
   const Structure& structure = dae_->structure();
   std::vector<double> force(part_.size(), 0);
@@ -30,21 +31,19 @@ void Tolerances::find_slider_shares() {
     const Network::Force& f = network_.forces[k];
     meet({f.element, f.a, f.b < 0 ? ground : f.b}, block_force_seen_[k]);
   }
-  std::fill(slider_share_.begin(), slider_share_.end(), 1.0);
+  std::vector<double> share(part_.size(), 1);
   for (std::size_t k = 0; k < rested_.size(); ++k) {
     const double bound = dae_->inputs().box(k).largest();
     const std::size_t part = at(part_of(structure.sliders[k]));
     if (!rested_[k] || !(bound > 0) || numerics::slider_force_ratio * bound >= force[part]) continue;
-    slider_share_[part] = std::min(slider_share_[part], std::max(numerics::least_slider_share, numerics::slider_force_ratio * bound / force[part]));
+    share[part] = std::min(share[part], std::max(numerics::least_slider_share, numerics::slider_force_ratio * bound / force[part]));
   }
-}
-
-double Tolerances::slider_share(const Quantity& q) const {
-  if (!any_rested_ || q.sort == Sort::block) return 1;
-  const Structure& structure = dae_->structure();
-  if (q.sort == Sort::deflection) return slider_share_[at(part_of(structure.deflections[q.index]))];
-  if (q.sort == Sort::force) return slider_share_[at(part_of(structure.rates[q.index]))];
-  return slider_share_[at(part_[q.index])];
+  for (std::size_t i = 0; i < quantity_.size(); ++i) {
+    const Quantity& q = quantity_[i];
+    if (q.sort == Sort::deflection) slider_share_[i] = share[at(part_of(structure.deflections[q.index]))];
+    if (q.sort == Sort::force) slider_share_[i] = share[at(part_of(structure.rates[q.index]))];
+    if (q.sort == Sort::velocity || q.sort == Sort::position) slider_share_[i] = share[at(part_[q.index])];
+  }
 }
 
 }  // namespace rheonet

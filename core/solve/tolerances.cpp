@@ -28,7 +28,6 @@ Tolerances::Tolerances(const Network& network, double relative) : network_(netwo
   block_force_seen_.assign(network.forces.size(), 0);
   rested_.assign(network.sliders.size(), 0);
   slid_.assign(network.sliders.size(), 0);
-  slider_share_.assign(nodes, 1);
   foreseen_ = seen_;
   force_seen_.assign(deflections, 0);
   hop_ = flow_seen_ = force_seen_;
@@ -387,7 +386,7 @@ void Tolerances::update(double t, const std::vector<double>& yp, const Dae::View
       if (!to_come) to_come = scales_to_come(std::max(ahead_, t - begin_), largest);
       scale = (*to_come)[static_cast<std::size_t>(quantity_[i].sort)];
     }
-    tolerance_[i] = std::max(relative * slider_share(quantity_[i]) * scale, numerics::least_step_tolerance * std::min(scale, size_[i]));
+    tolerance_[i] = std::max(relative * slider_share_[i] * scale, numerics::least_step_tolerance * std::min(scale, size_[i]));
     bear_noise(i, t, grain * std::abs(yp[i]), largest_velocity_);
   }
   if (positions) loosen_positions();

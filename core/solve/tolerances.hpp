@@ -93,7 +93,6 @@ class Tolerances {
   void find_states_of_laws();
   void see_rest(std::size_t slider, double velocity);
   void find_slider_shares();
-  double slider_share(const Quantity& q) const;
   void find_held();
   double local() const;
   using Scales = std::array<double, sorts>;  ///< For each sort [m/s, m, N, m, unit of the block].
@@ -161,7 +160,7 @@ class Tolerances {
   std::vector<char> rested_;                          ///< For each slider: it has come to rest or reversed.
   std::vector<signed char> slid_;                     ///< For each slider: the direction of its last motion.
   bool any_rested_ = false;
-  std::vector<double> slider_share_;                  ///< For each part: factor by which its sliders tighten tolerances.
+  std::vector<double> slider_share_;                  ///< For each unknown: factor by which sliders around it tighten its tolerance.
   BlockGains block_gains_;
   std::array<std::vector<double>, sorts> block_scale_;  ///< Largest scale that blocks allow to anything that can be an unknown.
   std::vector<double> least_state_;                   ///< For each state of a block: its least scale.

@@ -412,6 +412,7 @@ test('curves over another record are kept, and cleared on both sides; going back
   const saved = readFileSync(inFolder('taught.lesson'), 'utf8');
   assert.equal(saved.match(/^x {7}= /gm).length, text.match(/^x {7}= /gm).length - 1);
   await choose(page, 'Save', 'Edit the lesson');
+  await form(page).waitFor();
   await page.goBack();
   await form(page).waitFor({ state: 'detached' });
   writeFileSync(inFolder('taught.lesson'), own);

@@ -113,10 +113,11 @@ export class Files {
     const { current } = desk;
     const { file, text, data, stale } = current;
     if (!data.scene || stale) return desk.answer(data.failed?.message ?? t('The netlist has mistakes.'), true);
+    const { href } = location;
     try {
       const name = lessonFileOf(file);
       this.edited = current.lesson ?? (this.hasLesson ? await open(name) : { text: '', version: '' });
-      if (desk.current !== current || current.file !== file || current.text !== text) return; // another scene meanwhile
+      if (desk.current !== current || current.file !== file || current.text !== text || location.href !== href) return; // another scene meanwhile, or on the way to one
       this.writing.open({ file, text: this.asOpened.text, lesson: this.edited.text, data, first: desk.plots.drawnCurves()[0]?.[0]?.y });
     } catch (error) {
       desk.answer(error.message, true);
