@@ -72,17 +72,19 @@ double ReferenceLaw::relaxing(double step, double h, double s) const {
   const double before = std::max(0.0, 1 - s * force_ / coulomb_), q = 1 - exponent_;
   if (before == 0 && exponent_ >= 1) return 0;
   const double travel = coulomb_ / stiffness_, relaxed = h * coulomb_ / damping_;
-  const auto excess = [&](double u) {
-    const double integral = exponent_ == 1 ? std::log(before / u) : (std::pow(before, q) - std::pow(u, q)) / q;
+  const double power_before = exponent_ == 1 ? 1 : std::pow(before, q);
+  const auto excess = [&](double u, double power) {  // power: u^q
+    const double integral = exponent_ == 1 ? std::log(before / u) : (power_before - power) / q;
     return travel * integral + relaxed * (1 - u) - s * step;
   };
-  if (exponent_ < 1 && excess(0) <= 0) return 0;
+  if (exponent_ < 1 && excess(0, 0) <= 0) return 0;
   double low = 0, high = 2, u = std::clamp(before, 1e-3, 2.0);
   for (int iteration = 0; iteration < 200; ++iteration) {
-    const double e = excess(u);
-    if (std::abs(e) <= rounding * (std::abs(step) + travel * (before + u) * std::pow(u, -exponent_) + relaxed)) return u;
+    const double power = exponent_ == 1 ? 1 : std::pow(u, q);
+    const double e = excess(u, power), steepness = travel * power / u;
+    if (std::abs(e) <= rounding * (std::abs(step) + (before + u) * steepness + relaxed)) return u;
     (e > 0 ? low : high) = u;
-    const double next = u + e / (travel * std::pow(u, -exponent_) + relaxed);
+    const double next = u + e / (steepness + relaxed);
     if (next > low && next < high) {
       // Newton's method squares its error.
       if (std::abs(next - u) <= 1e-10 * u) return next;
@@ -111,8 +113,8 @@ ReferenceLaw::Value ReferenceLaw::value(double step, double h) const {
     case Type::dashpot: {
       const double rate = std::abs(step) / h;
       if (exponent_ == 1) return {damping_ * step / h, damping_ / h};
-      return {sign_of(step) * damping_ * std::pow(rate, exponent_),
-              exponent_ * damping_ * std::pow(rate, exponent_ - 1) / h};
+      const double power = std::pow(rate, exponent_);
+      return {sign_of(step) * damping_ * power, exponent_ * damping_ * (rate > 0 ? power / rate : std::pow(rate, exponent_ - 1)) / h};
     }
     case Type::slider:
       if (step > 0) return {slip_ > 0 ? coulomb_ : breakaway_, 0};
