@@ -289,13 +289,21 @@ double Inputs::search_reversal(int a, int b, double t, double limit, double grai
   return never;
 }
 
+double Inputs::largest_velocity_of(const Motion& m, double begin, double end) {
+  return m.by_position ? m.piece.largest_rate(begin, end) : m.piece.largest(begin, end);
+}
+
+double Inputs::largest_velocity(double begin, double end) const {
+  double result = 0;
+  for (const Motion& m : motions_) {
+    if (m.block < 0) result = std::max(result, largest_velocity_of(m, begin, end));
+  }
+  return result;
+}
+
 Inputs::Reach Inputs::reach() const {
   Reach result;
-  for (const Motion& m : motions_) {
-    const double end = std::min(m.piece.end, stop_);
-    const double fastest = m.by_position ? m.piece.largest_rate(m.piece.origin, end) : m.piece.largest(m.piece.origin, end);
-    result.velocity = std::max(result.velocity, fastest);
-  }
+  for (const Motion& m : motions_) result.velocity = std::max(result.velocity, largest_velocity_of(m, m.piece.origin, std::min(m.piece.end, stop_)));
   for (const Force& f : forces_) result.force = std::max(result.force, f.piece.largest(f.piece.origin, std::min(f.piece.end, stop_)));
   return result;
 }

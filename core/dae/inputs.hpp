@@ -113,6 +113,9 @@ class Inputs {
   /// Derivative of Loss::line by this parameter of the slider that stands for the losses of a train.
   Loss::Line loss_slope(std::size_t slider, int side, bool b_drives, std::size_t which) const;
 
+  /// The largest velocity of a prescribed motion, other than by a block, within a time of the present pieces [m/s].
+  double largest_velocity(double begin, double end) const;
+
   /// Estimates of the largest force [N] and velocity [m/s] on the present pieces.
   struct Reach { double force = 0, velocity = 0; };
   Reach reach() const;
@@ -135,6 +138,7 @@ class Inputs {
   };
   struct Force { int element; Signal signal; Piece piece; };
   double position_of(const Motion& m, TimePoint t) const;
+  static double largest_velocity_of(const Motion& m, double begin, double end);
   const std::function<Loss(std::span<const double>)>& loss_law(const Network::Slider& slider) const;
   void bound_losses(std::size_t train);
   void mark(double t, bool fresh);

@@ -20,7 +20,12 @@ std::vector<int> EventTransition::select_modes(double t, double h, const Fired& 
                                 std::vector<double>& force, Change& change) {
   const std::size_t nodes = structure_.kind.size();
   inputs_.sense(t, state);
-  for (std::size_t m = 0; m < network_.motions.size(); ++m) state.velocity[at(network_.motions[m].node)] = inputs_.velocity[m];
+  for (std::size_t m = 0; m < network_.motions.size(); ++m) {
+    double& velocity = state.velocity[at(network_.motions[m].node)];
+    const double before = std::exchange(velocity, inputs_.velocity[m]);
+    // Two pieces of a signal meet to an ulp: what sticks to the motion follows, or it would slip by that ulp.
+    if (std::abs(velocity - before) <= numerics::equal_velocities * std::abs(before)) std::replace(state.velocity.begin(), state.velocity.end(), before, double(velocity));
+  }
   const Nodal now = nodal(state, force, true);
   stop_at_turns(fired, modes, state);
   const auto ahead = [&](double step) {

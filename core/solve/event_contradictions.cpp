@@ -35,7 +35,7 @@ void NetworkEvents::refuse_contradictions(double t, const double* y, const doubl
     const bool stuck = dae_.structure().stuck[at(k)];
     // Where the bounds are 0 or infinite, round-off has nothing to be compared with.
     if (stuck && (moved_apart(k) || dae_.inputs().box(at(k)).largest() == 0)) continue;
-    const double scale = stuck ? tolerances_.largest_force(k) : tolerances_.largest_velocity();
+    const double scale = stuck ? tolerances_.largest_force(k) : tolerances_.largest_relative_velocity();
     const Branch& branch = network.sliders[at(k)].branch;
     const double allowed = numerics::slip_against_force * scale, over = -at_begin_[law_margin_.size() + i];
     if (over <= allowed || (stuck && over <= allowed + numerics::balance_roundoff * force_beside(branch, network, dae_.view(t, y, yp)))) continue;

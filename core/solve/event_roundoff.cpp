@@ -345,15 +345,17 @@ void Tolerances::loosen_balanced_forces(const std::vector<double>& slope) {
   }
 }
 
-/// Finds the largest deflection of each part: positions of nodes that springs and friction hold follow from deflections.
-void Tolerances::find_longest() {
+/// Positions of nodes that springs and friction hold follow from deflections, which are rounded, and which a restart leaves off by the
+/// round-off of their balance.
+void Tolerances::find_way_rounding() {
   const Structure& structure = dae_->structure();
   const std::vector<double>& seen = seen_[static_cast<std::size_t>(Sort::deflection)];
-  longest_.assign(part_.size(), 0);
+  way_rounding_.assign(part_.size(), 0);
   for (std::size_t j = 0; j < structure.deflections.size(); ++j) {
-    if (dae_->deflection_unknown(static_cast<int>(j)) < 0) continue;
-    double& longest = longest_[at(part_of(structure.deflections[j]))];
-    longest = std::max(longest, seen[j]);
+    const int unknown = dae_->deflection_unknown(static_cast<int>(j));
+    if (unknown < 0) continue;
+    double& most = way_rounding_[at(part_of(structure.deflections[j]))];
+    most = std::max({most, numerics::sum_ulps * std::numeric_limits<double>::epsilon() * seen[j], rounding_[at(unknown)]});
   }
 }
 

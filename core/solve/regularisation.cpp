@@ -15,12 +15,14 @@ namespace rheonet {
 
 Regularisation::Regularisation(const Network& network)
     : network_(network), applied_(network.rates.size(), not_given), least_velocity_(network.rates.size(), 0), stops_(network.rates.size(), 0),
-      mass_(network.rates.size(), 0) {}
+      follows_(stops_), mass_(network.rates.size(), 0) {}
 
 void Regularisation::attach(const Structure& structure) {
   std::fill(stops_.begin(), stops_.end(), 0);
   std::fill(mass_.begin(), mass_.end(), 0);
+  std::fill(follows_.begin(), follows_.end(), 0);
   const auto heavy = [&](NodeId n) { return structure.kind[at(n)] == Kind::known || structure.kind[at(n)] == Kind::massive; };
+  for (std::size_t r = 0; r < follows_.size(); ++r) follows_[r] = heavy(structure.rates[r].a) && heavy(structure.rates[r].b);
   // `structure` represents ends that sliders hold together by one node.
   const auto for_each_pseudoplastic = [&](auto visit) {
     for (const Laws<RateBatch>& laws : network_.rate_laws) {
@@ -87,7 +89,7 @@ void Regularisation::apply(const Tolerances& tolerances) {
       const std::size_t r = at(laws.first) + i;
       const Growth growth = laws.batch->growth(i);
       double w = 0;
-      if (growth.exponent > 1) w = std::max(least_velocity_[r], tolerances.unfelt_dilatant(static_cast<int>(r)));
+      if (growth.exponent > 1) w = std::max(least_velocity_[r], follows_[r] ? 0 : tolerances.unfelt_dilatant(static_cast<int>(r)));
       if (growth.exponent < 1 && stops_[r]) w = numerics::negligible_force * unresolved;
       // Even at such a small velocity the force may be large, and all of it vanishes at rest.
       if (growth.exponent < 1 && mass_[r] > 0) w = std::min(w, std::max(tolerances.unfelt(static_cast<int>(r)), slowest_stop(r, growth)));

@@ -32,6 +32,7 @@ class Regularisation {
   /// that start from rest together. The force of any other pseudoplastic law follows from its neighbours, and its velocity
   /// from that force: it needs no regularisation.
   std::vector<char> stops_;
+  std::vector<char> follows_;  ///< For each rate branch: its force follows from the velocities of masses and motions.
   std::vector<double> mass_;  ///< Reduced mass that it stops, with others in series [kg]; 0 if none.
 };
 

@@ -174,6 +174,10 @@ void Tolerances::see(const std::vector<double>& y, const Dae::View& view) {
   for (double f : view.applied) applied_force_ = std::max(applied_force_, std::abs(f));
 }
 
+double Tolerances::largest_relative_velocity() const {
+  return std::max(largest_velocity_, *std::max_element(relative_seen_.begin(), relative_seen_.end()));  // ground is always there
+}
+
 bool Tolerances::blind() const {
   std::array<bool, sorts> there{}, known{};
   for (const Quantity& q : quantity_) {
@@ -231,6 +235,8 @@ void Tolerances::follow(double t, const std::vector<double>& y, const std::vecto
     find_slider_shares();
     find_block_rounding();
   }
+  // A step may lead from one reversal of a motion to the next, where its velocity is 0.
+  known_velocity_ = std::max(known_velocity_, dae_->inputs().largest_velocity(reached_, t));
   step_ = t - reached_;
   reached_ = t;
   find_drift_again(t, view);
@@ -342,8 +348,7 @@ void Tolerances::bear_noise(std::size_t i, double t, double jitter, double large
   if (q.sort == Sort::position) {
     // A stop far from 0 may deflect by less than the round-off of its position.
     tolerance = std::max(tolerance, numerics::sum_ulps * std::numeric_limits<double>::epsilon() * size_[i]);
-    // The positions of nodes on springs and friction follow from deflections, which are rounded.
-    tolerance = std::max(tolerance, numerics::sum_ulps * std::numeric_limits<double>::epsilon() * longest_[at(part_[at(dae_->structure().rigid[q.index])])]);
+    tolerance = std::max(tolerance, way_rounding_[at(part_[at(dae_->structure().rigid[q.index])])]);
   }
   Drift drift = q.sort == Sort::position ? Drift{rounding_now_[at(part_[q.index])]} : drift_[i];
   if (!tied_rounding_.empty()) {
@@ -365,7 +370,7 @@ void Tolerances::update(double t, const std::vector<double>& yp, const Dae::View
   const std::vector<double>& slope = dae_->slopes();
   if (!balance_rounding_.none()) balance_rounding_.find(view, slope);
   const bool positions = !dae_->integrated_positions().empty();
-  if (positions) find_longest();
+  if (positions) find_way_rounding();
   find_tied_rounding(view);
   // Time is known to half an ulp: changes within that cannot be resolved.
   const double grain = numerics::time_change_ulps * std::numeric_limits<double>::epsilon() * std::abs(t);

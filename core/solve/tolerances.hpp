@@ -52,6 +52,8 @@ class Tolerances {
   const std::vector<double>& grains() const { return grain_; }
   /// Largest velocity of all nodes, unknown or prescribed, seen or foreseen [m/s].
   double largest_velocity() const { return largest_velocity_; }
+  /// Of any node or branch: without masses and motions, only branches have velocities [m/s].
+  double largest_relative_velocity() const;
   /// Velocity below which nothing is resolved, except by dilatant laws [m/s].
   double unresolved() const;
   /// Velocity at which the force of a pseudoplastic dashpot is negligible (`numerics::negligible_force`), or is mostly round-off [m/s].
@@ -119,7 +121,7 @@ class Tolerances {
   void find_block_rounding();
   int part_of(const Branch& b) const;
   void loosen_positions();
-  void find_longest();
+  void find_way_rounding();
   void find_balances();
   void loosen_balanced_forces(const std::vector<double>& slope);
   double noise_of(bool given, double flow, const Branch& b, double of_difference) const;
@@ -193,7 +195,7 @@ class Tolerances {
   std::vector<double> place_seen_, way_seen_;
   std::vector<char> has_gap_;                         ///< For each node: it has a gap at present.
   std::vector<NodeId> part_;                          ///< For each node: representative of its part of the network.
-  std::vector<double> longest_;                       ///< For each part: its longest deflection so far [m].
+  std::vector<double> way_rounding_;                  ///< For each part: largest round-off of its deflections [m].
   std::vector<char> jitters_;                         ///< For each unknown: it jitters with the round-off of time.
   std::vector<double> rounding_;                      ///< For each unknown: its round-off near 0.
   /// Round-off of a velocity [m/s], and how long it accumulates in the quantity that integrates it [s].

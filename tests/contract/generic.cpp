@@ -18,7 +18,8 @@ double draw_number(const Parameter& p, Choice choice, Random& random) {
   if (choice == Choice::highest && std::isfinite(p.upper)) return p.upper;
   const double centre = p.fallback.value_or(1);
   const double drawn = centre == 0 ? random.uniform(-1, 1) : random.around(centre, 2.7);
-  return std::clamp(drawn, p.lower_open ? std::nextafter(p.lower, infinity) : p.lower, p.upper);
+  if (p.lower_open && drawn < p.lower) return std::min(2 * p.lower - drawn, p.upper);  // next to a bound that it cannot have, a law has no limit
+  return std::clamp(drawn, p.lower, p.upper);
 }
 
 double draw_value(const Parameter& p, double scale, Random& random) {
