@@ -151,16 +151,15 @@ void ReferenceBundle::share_at_rest(double force, double h) {
   const double friction = std::clamp(force - given - preferred, stuck.low, stuck.high);
   std::vector<double> room;
   for (const Interval& r : rooms) room.push_back(friction < 0 ? -r.low : r.high);
-  // The level up to which every slider is loaded, if it can be.
-  double level = 0, low_level = 0, high_level = std::abs(friction);
-  for (int iteration = 0; iteration < 200 && low_level < high_level; ++iteration) {
-    level = (low_level + high_level) / 2;
-    double sum = 0;
-    for (double r : room) sum += std::min(r, level);
-    (sum < std::abs(friction) ? low_level : high_level) = level;
-    if (level == low_level && level == high_level) break;
+  // The level up to which every slider is loaded, if it can be: the weakest are full.
+  std::vector<double> weakest_first = room;
+  std::sort(weakest_first.begin(), weakest_first.end());
+  double level = 0, left = std::abs(friction);
+  for (std::size_t k = 0; k < weakest_first.size(); ++k) {
+    level = left / static_cast<double>(weakest_first.size() - k);
+    if (level <= weakest_first[k]) break;
+    left -= weakest_first[k];
   }
-  level = high_level;
   const double combined = force - given - friction;
   const double width = relaxing.high - relaxing.low;
   const double up = width > 0 ? (combined - relaxing.low) / width : 0.5;
