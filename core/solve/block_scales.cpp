@@ -1,63 +1,83 @@
+#include "core/solve/block_scales.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "core/base/index.hpp"
 #include "core/base/numerics.hpp"
-#include "core/solve/tolerances.hpp"
 
 namespace rheonet {
 
-/// Scales from blocks. A gain turns a small error of its input into a large error of its output: the quantities behind a
-/// recorded output share its allowed error equally. A position behind a force may be off by the allowed error of the force
-/// over its slope: a stop in the way of a far-travelling mass deflects little. Contact at speed v causes a force v sqrt(k m).
-/// A state that acts by the force of its law alone need not be resolved finer than the smallest forces are.
-void Tolerances::find_block_scales(double largest_force, const Dae::View& view) {
-  if (network_.blocks.blocks.empty()) return;
-  for (std::size_t k = 0; k < sorts; ++k) block_scale_[k].assign(seen_[k].size(), std::numeric_limits<double>::infinity());
-  BlockSignals& blocks = dae_->inputs().blocks();
-  for (std::size_t b = 0; b < block_output_seen_.size(); ++b) {
-    block_output_seen_[b] = std::max(block_output_seen_[b], std::abs(dae_->output(static_cast<int>(b))));
+using Sort = Unknown::Sort;
+
+BlockScales::BlockScales(const Network& network)
+    : network_(network), gains_(network), output_seen_(network.blocks.blocks.size(), 0), force_seen_(network.forces.size(), 0), sensed_(network.nodes(), 0) {
+  for (const Blocks::Sensor& sensor : network.blocks.sensors) {
+    if (sensor.what == Blocks::Sensor::What::position) sensed_[at(sensor.index)] = 1;
   }
-  block_gains_.for_each([&](int block, BlockGains::Of of, int index, double gain, double together) {
+}
+
+void BlockScales::follow(Dae& dae) {
+  if (!network_.blocks.blocks.empty()) gains_.follow(dae.inputs().blocks());
+}
+
+double BlockScales::limit(const Unknown& q, double scale) const {
+  return network_.blocks.blocks.empty() ? scale : std::min(scale, rheonet::of(most_, q));
+}
+
+double BlockScales::raise(const Unknown& q, double scale) const {
+  return q.sort == Sort::block && !least_state_.empty() ? std::max(scale, least_state_[q.index]) : scale;
+}
+
+void BlockScales::find(Dae& dae, const Dae::View& view, const Magnitudes& seen, double largest_force, double local) {
+  if (network_.blocks.blocks.empty()) return;
+  for (std::size_t k = 0; k < most_.size(); ++k) most_[k].assign(seen.unknown[k].size(), std::numeric_limits<double>::infinity());
+  BlockSignals& blocks = dae.inputs().blocks();
+  for (std::size_t b = 0; b < output_seen_.size(); ++b) output_seen_[b] = std::max(output_seen_[b], std::abs(dae.output(static_cast<int>(b))));
+  gains_.for_each([&](int block, BlockGains::Of of, int index, double gain, double together) {
     // Divided by `together` twice: the error of each quantity also contains the errors of the others.
-    const double allowed = block_output_seen_[at(block)] / (together * together * gain);
+    const double allowed = output_seen_[at(block)] / (together * together * gain);
     const bool state = of == BlockGains::Of::state;
     const auto sort = static_cast<std::size_t>(state ? Sort::block : of == BlockGains::Of::position ? Sort::position : Sort::velocity);
     // Nodes that sticking sliders join have one velocity, but a position each.
-    const std::size_t k = at(state ? blocks.state_of(index) : of == BlockGains::Of::position ? index : dae_->structure().rigid[at(index)]);
-    if (k >= block_scale_[sort].size()) return;
-    const double least = std::max(numerics::block_input_share, numerics::block_input_ulps * std::numeric_limits<double>::epsilon() / local()) * seen_[sort][k];
-    if (allowed > 0) block_scale_[sort][k] = std::min(block_scale_[sort][k], std::max(allowed, least));
+    const std::size_t k = at(state ? blocks.state_of(index) : of == BlockGains::Of::position ? index : dae.structure().rigid[at(index)]);
+    if (k >= most_[sort].size()) return;
+    const double least = std::max(numerics::block_input_share, numerics::block_input_ulps * std::numeric_limits<double>::epsilon() / local) * seen.unknown[sort][k];
+    if (allowed > 0) most_[sort][k] = std::min(most_[sort][k], std::max(allowed, least));
   });
-  if (network_.blocks.sensors.empty()) return;
-  blocks.update_slopes(dae_->inputs().history());
-  if (!states_of_laws_) find_states_of_laws();
+  if (!network_.blocks.sensors.empty()) find_behind_forces(dae, view, largest_force);
+}
+
+void BlockScales::find_behind_forces(Dae& dae, const Dae::View& view, double largest_force) {
+  BlockSignals& blocks = dae.inputs().blocks();
+  blocks.update_slopes(dae.inputs().history());
+  if (!states_of_laws_) find_states_of_laws(dae);
   least_state_.assign(blocks.states(), 0);
   for (const auto& [block, state] : *states_of_laws_) {
     const double slope = std::abs(blocks.slope(block, state));
     if (slope > 0) least_state_[state] = numerics::scale_floor * largest_force / slope;
   }
+  std::vector<double>& positions = most_[static_cast<std::size_t>(Sort::position)];
   for (std::size_t f = 0; f < network_.forces.size(); ++f) {
     const int block = network_.forces[f].block;
     if (block < 0) continue;
-    block_force_seen_[f] = std::max(block_force_seen_[f], std::abs(dae_->inputs().force[f]));
-    const double seen = std::max(block_force_seen_[f], numerics::scale_floor * largest_force);
-    for (std::size_t s = 0; s < network_.blocks.sensors.size(); ++s) {
+    force_seen_[f] = std::max(force_seen_[f], std::abs(dae.inputs().force[f]));
+    const double seen = std::max(force_seen_[f], numerics::scale_floor * largest_force);
+    for (std::size_t s = 0; s < network_.blocks.sensors.size() && !positions.empty(); ++s) {
       const Blocks::Sensor& sensor = network_.blocks.sensors[s];
       if (sensor.what != Blocks::Sensor::What::position) continue;
       const double stiffness = std::abs(blocks.slope(block, blocks.states() + s));
-      const NodeId node = dae_->structure().rigid[at(sensor.index)];
-      const double force = std::max(seen, std::abs(view.velocity[at(node)]) * std::sqrt(stiffness * dae_->structure().inertia[at(node)]));
-      if (block_scale_[static_cast<std::size_t>(Sort::position)].empty()) continue;
-      double& scale = block_scale_[static_cast<std::size_t>(Sort::position)][at(sensor.index)];
+      const NodeId node = dae.structure().rigid[at(sensor.index)];
+      const double force = std::max(seen, std::abs(view.velocity[at(node)]) * std::sqrt(stiffness * dae.structure().inertia[at(node)]));
+      double& scale = positions[at(sensor.index)];
       if (stiffness > 0 && force > 0) scale = std::min(scale, force / stiffness);
     }
   }
 }
 
-void Tolerances::find_states_of_laws() {
-  const BlockSignals& blocks = dae_->inputs().blocks();
+void BlockScales::find_states_of_laws(Dae& dae) {
+  const BlockSignals& blocks = dae.inputs().blocks();
   std::vector<char> elsewhere(blocks.states(), 0);  // acts on more than the force of a law
   const auto acts = [&](int block) {
     for (std::size_t s = 0; block >= 0 && s < elsewhere.size(); ++s) elsewhere[s] = elsewhere[s] || blocks.couples(block, s);

@@ -35,7 +35,7 @@ void NetworkEvents::refuse_contradictions(double t, const double* y, const doubl
     const bool stuck = dae_.structure().stuck[at(k)];
     // Where the bounds are 0 or infinite, round-off has nothing to be compared with.
     if (stuck && (moved_apart(k) || dae_.inputs().box(at(k)).largest() == 0)) continue;
-    const double scale = stuck ? tolerances_.largest_force(k) : tolerances_.largest_relative_velocity();
+    const double scale = stuck ? tolerances_.dead_bands().largest_force(k) : tolerances_.largest_relative_velocity();
     const Branch& branch = network.sliders[at(k)].branch;
     const double allowed = numerics::slip_against_force * scale, over = -at_begin_[law_margin_.size() + i];
     if (over <= allowed || (stuck && over <= allowed + numerics::balance_roundoff * force_beside(branch, network, dae_.view(t, y, yp)))) continue;
@@ -53,7 +53,7 @@ std::vector<NetworkEvents::Contradicted> NetworkEvents::contradicted(double t, c
   const Dae::View& view = resolved(t, y.data(), yp.data());
   for (const Watched& law : watched_) {
     if (!rests(law)) continue;
-    const double velocity = view.flow[at(law.branch)], far = numerics::resolved_dead_bands * tolerances_.dead_band(law.branch);
+    const double velocity = view.flow[at(law.branch)], far = numerics::resolved_dead_bands * tolerances_.dead_bands().reversal(law.branch);
     if (law.batch->holds(law.i)) {
       const std::array<double, numerics::held_law_events> g = held_functions(law, view);
       const auto first = std::min_element(g.begin(), g.end());

@@ -76,14 +76,14 @@ void NetworkEvents::find_pseudoplastic() {
 // In parallel with a pseudoplastic dashpot, a velocity within the dead band still causes a considerable force. There the
 // velocity is expressed by the dashpot's force, and its dead band by that of the force.
 NetworkEvents::Flow NetworkEvents::flow(const Watched& law, const Dae::View& view) const {
-  const Flow plain{view.flow[at(law.branch)], tolerances_.dead_band(law.branch)};
+  const Flow plain{view.flow[at(law.branch)], tolerances_.dead_bands().reversal(law.branch)};
   if (law.beside < 0) return plain;
   std::size_t i = 0;
   const RateBatch& dashpot = dae_.network().rate_of(law.beside, i);
   const double resolved = numerics::resolved_dead_bands * plain.dead_band, most = dashpot.force_at(i, resolved);
   const double force = law.sign * view.rate_force[at(law.beside)];
   return {std::abs(force) < most ? resolved * (force / most) : plain.velocity,
-          std::clamp(resolved * (tolerances_.force_noise(law.beside) / most), std::numeric_limits<double>::min(), plain.dead_band)};
+          std::clamp(resolved * (tolerances_.dead_bands().force(law.beside) / most), std::numeric_limits<double>::min(), plain.dead_band)};
 }
 
 int NetworkEvents::element(std::size_t k) const {
@@ -105,7 +105,7 @@ double NetworkEvents::loss_function(std::size_t k, const Dae::View& view) const 
   const std::size_t train = at(losses_[k]);
   const Network::Train& of = dae_.network().trains[train];
   const double force = view.train_force[train], lead = dae_.inputs().loss(train).lead_of_a(modes_.slider[at(of.friction)], force);
-  return (modes_.b_drives[train] ? -lead : lead) + numerics::balance_roundoff * std::abs(force) + tolerances_.slip_noise(of.friction) + loss_margin_[k];
+  return (modes_.b_drives[train] ? -lead : lead) + numerics::balance_roundoff * std::abs(force) + tolerances_.dead_bands().slip(of.friction) + loss_margin_[k];
 }
 
 double NetworkEvents::sudden_function(std::size_t k, const Dae::View& view) const {
@@ -124,13 +124,13 @@ bool NetworkEvents::moved_apart(int k) const {
 bool NetworkEvents::balances_force(int k) const { return dae_.structure().stuck[at(k)] && !moved_apart(k); }
 
 /// Dead band of the guard of a sticking slider [N].
-double NetworkEvents::force_band(int k) const { return tolerances_.largest_force(k) * numerics::balance_roundoff + tolerances_.slip_noise(k) + margin_[at(k)]; }
+double NetworkEvents::force_band(int k) const { return tolerances_.dead_bands().largest_force(k) * numerics::balance_roundoff + tolerances_.dead_bands().slip(k) + margin_[at(k)]; }
 
 double NetworkEvents::slider_function(int k, const Dae::View& view) const {
-  if (!dae_.structure().stuck[at(k)]) return modes_.slider[at(k)] * view.slider_velocity[at(k)] + tolerances_.slider_noise(k) + margin_[at(k)];
+  if (!dae_.structure().stuck[at(k)]) return modes_.slider[at(k)] * view.slider_velocity[at(k)] + tolerances_.dead_bands().slider(k) + margin_[at(k)];
   if (moved_apart(k)) {
     const Branch& ends = dae_.structure().sliders[at(k)];
-    return tolerances_.slider_noise(k) + margin_[at(k)] - std::abs(view.velocity[at(ends.a)] - view.velocity[at(ends.b)]);
+    return tolerances_.dead_bands().slider(k) + margin_[at(k)] - std::abs(view.velocity[at(ends.a)] - view.velocity[at(ends.b)]);
   }
   const Box& box = dae_.inputs().box(at(k));
   const double force = view.slider_force[at(k)];
@@ -164,7 +164,7 @@ void NetworkEvents::begin(double t, const double* y, const double* yp) {
   for (std::size_t i = 0; i < sliders_.size(); ++i) {
     const int k = sliders_[i];
     // The search for events evaluates the guard again, with other round-off of the forces. A guard that begins at 0 or below would never fall through 0.
-    const double g = at_begin_[law_margin_.size() + i], least = balances_force(k) ? numerics::equation_roundoff * tolerances_.largest_force(k) : 0;
+    const double g = at_begin_[law_margin_.size() + i], least = balances_force(k) ? numerics::equation_roundoff * tolerances_.dead_bands().largest_force(k) : 0;
     margin_[at(k)] = more(g) + (g < least ? least : 0);
   }
   const std::size_t losses = events_.size() - loss_margin_.size(), limits = losses - limit_margin_.size();

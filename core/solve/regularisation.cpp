@@ -89,7 +89,7 @@ void Regularisation::apply(const Tolerances& tolerances) {
       const std::size_t r = at(laws.first) + i;
       const Growth growth = laws.batch->growth(i);
       double w = 0;
-      if (growth.exponent > 1) w = std::max(least_velocity_[r], follows_[r] ? 0 : tolerances.unfelt_dilatant(static_cast<int>(r)));
+      if (growth.exponent > 1) w = std::max(least_velocity_[r], follows_[r] ? 0 : tolerances.dead_bands().unfelt_dilatant(static_cast<int>(r)));
       if (growth.exponent < 1 && stops_[r]) w = numerics::negligible_force * unresolved;
       // Even at such a small velocity the force may be large, and all of it vanishes at rest.
       if (growth.exponent < 1 && mass_[r] > 0) w = std::min(w, std::max(tolerances.unfelt(static_cast<int>(r)), slowest_stop(r, growth)));

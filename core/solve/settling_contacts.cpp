@@ -23,22 +23,6 @@ std::vector<double> pressing(const Network& network, const std::vector<int>& con
 
 }  // namespace
 
-/// Each hop is resolved relative to its own height, which goes with the square of its velocity: so an error shifts the next contact, and
-/// all that follow, by the same share of their times, however small the hop is.
-double Tolerances::hop_share(std::size_t branch) const {
-  const double share = hop_[branch] / flow_seen_[branch];
-  return numerics::hop_resolution * share * share;
-}
-
-void Tolerances::see_hops(const Dae::View& view, bool restarts) {
-  for (const Network::Slider& slider : network_.sliders) {
-    if (!slider.contact || slider.contact->restitution == 0) continue;
-    const std::size_t j = at(slider.gauge);
-    const bool begins = restarts && view.p[j] == 0;  // at a bound
-    hop_[j] = std::max(begins ? 0 : hop_[j], std::abs(view.flow[j]));
-  }
-}
-
 std::vector<int> settling_contacts(System& system, const Tolerances& tolerances, const Settling& settling, const std::vector<double>& y,
                                    const std::vector<double>& yp, std::vector<double>& closing) {
   Dae& dae = system.dae;
@@ -52,7 +36,7 @@ std::vector<int> settling_contacts(System& system, const Tolerances& tolerances,
     const Dae::View& view = dae.view_again(settling.t, y.data(), yp.data());
     const double e = slider.contact->restitution, closes = side * (view.velocity[at(slider.branch.a)] - view.velocity[at(slider.branch.b)]), w = closes * e;
     const double before = std::exchange(closing[k], closes), keeps = e < 1 ? e : before > 0 ? closes / before : 1;
-    if (!(keeps < 1) || w > numerics::settled_hops * settling.accuracy * tolerances.flow_seen(slider.gauge)) continue;
+    if (!(keeps < 1) || w > numerics::settled_hops * settling.accuracy * tolerances.seen().flow[at(slider.gauge)]) continue;
     slow.push_back(static_cast<int>(k));
     speed.push_back(w);
     kept.push_back(keeps);
