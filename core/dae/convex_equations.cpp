@@ -230,6 +230,7 @@ void ConvexNetwork::join_by_equations(DisjointSets& sets) const {
 }
 
 /// Which equations permit equal values, and which hold for the values as they do for the changes: see `join_by_equations`.
+/// To round-off: nodes that were joined across more would jump, and over a short time the inertia of that jump outweighs all forces.
 void ConvexNetwork::classify_equations() {
   for (Equation& e : equations_) {
     double sum = 0, size = 0, left = e.given, magnitude = std::abs(left);
@@ -241,7 +242,7 @@ void ConvexNetwork::classify_equations() {
       magnitude += std::abs(value);
     }
     e.equal = std::abs(sum) <= numerics::equal_given_values * size;
-    e.homogeneous = std::abs(left) <= numerics::torn_velocities * magnitude;
+    e.homogeneous = std::abs(left) <= numerics::equal_velocities * magnitude;
   }
 }
 

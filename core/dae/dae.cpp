@@ -40,6 +40,7 @@ Dae::Dae(const Network& network, const Structure& structure, Inputs& inputs, con
   driven_from_ = offset_;
   slip_force_.assign(network.sliders.size(), 0);
   slider_shift_ = slip_force_;
+  tied_sum_.assign(structure.tied.size(), 0);
   slip_side_.assign(network.sliders.size(), 0);
   for (std::size_t k = 0; k < network.sliders.size(); ++k) {
     if (!structure.stuck[k] && !network.sliders[k].varying.empty()) varying_.push_back(k);
@@ -322,6 +323,9 @@ void Dae::enter(double t, const State& state, const Modes& modes, std::vector<do
     }
   }
   const std::vector<double> place = places(state);
+  for (const NodeId node : positions_.order) {
+    if (const int r = positions_.of[at(node)].tied; r >= 0) tied_sum_[at(r)] = sum_of(structure_->tied[at(r)], place);
+  }
   for (std::size_t n = 0; n < iv_.size(); ++n) {
     if (ix_[n] >= 0) y[at(ix_[n])] = state.position[n] - place[at(positions_.of[n].parent)];
     if (iv_[n] < 0) continue;
@@ -346,6 +350,12 @@ std::vector<double> Dae::places(const State& state) const {
     place[at(node)] = place[at(x.parent)] + x.sign * (state.p[at(x.branch)] + offset_[at(x.branch)]);
   }
   return place;
+}
+
+double Dae::sum_of(const Structure::Tied& tied, const std::vector<double>& position) {
+  double sum = position[at(tied.pivot)];
+  for (const auto& [node, factor] : tied.terms) sum += factor * position[at(node)];
+  return sum;
 }
 
 void Dae::leave(State& state) const {

@@ -289,6 +289,7 @@ class Dae {
   void share_among_joined(double t);
   void view_velocities(const double* yp);
   std::vector<double> places(const State& state) const;
+  static double sum_of(const Structure::Tied& tied, const std::vector<double>& position);
   void set_rate_forms();
   void stiffen_resting_laws();
   double held_force(const Branch& ends) const;
@@ -341,6 +342,7 @@ class Dae {
   std::vector<double> offset_;  ///< Displacement less deflection of each deflection branch that does not creep.
   std::vector<double> driven_from_;    ///< For each driven branch: its deflection at the last `enter` or `mark` of the inputs [m].
   std::vector<double> slider_shift_;   ///< Displacement of each sticking slider.
+  std::vector<double> tied_sum_;       ///< For each equation of a train: the sum of the positions of its nodes, times their factors [m].
   std::vector<double> slip_force_;     ///< For each slider: 0 while it sticks.
   std::vector<signed char> slip_side_; ///< For each slider: the direction in which it slips; 0 while it sticks.
   std::vector<std::size_t> varying_;   ///< Slipping sliders whose sliding force varies.

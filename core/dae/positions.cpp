@@ -12,7 +12,7 @@ class PositionFinder {
  public:
   PositionFinder(const Network& network, const Structure& structure, const std::vector<char>& needed)
       : network_(network), structure_(structure), needed_(needed), tight_(network.nodes()), stuck_(tight_.size()),
-        beside_(tight_.size()), reached_(tight_.size(), 0) {
+        beside_(tight_.size()), tied_(tight_.size()), reached_(tight_.size(), 0) {
     result_.of.assign(tight_.size(), {});
     list_neighbours();
   }
@@ -52,6 +52,34 @@ class PositionFinder {
       if (structure_.stuck[k] && needed_[at(b.a)] && needed_[at(b.b)]) list(stuck_, b, static_cast<int>(k));
     }
     for (const Branch& b : network_.rates) meet(b);
+    for (std::size_t r = 0; r < structure_.tied.size(); ++r) {
+      for (const NodeId node : nodes_of(structure_.tied[r])) tied_[at(node)].push_back(static_cast<int>(r));
+    }
+  }
+
+  static std::vector<NodeId> nodes_of(const Structure::Tied& tied) {
+    std::vector<NodeId> nodes{tied.pivot};
+    for (const Structure::Tied::Term& term : tied.terms) nodes.push_back(term.node);
+    return nodes;
+  }
+
+  bool follows_time(NodeId node) const { return structure_.kind[at(node)] == Kind::known && structure_.of_time[at(node)]; }
+
+  /// The node of a train whose position follows from those of the others, all of which are reached. Beside positions that are functions of
+  /// time only one: of two that are integrated, the sum might be small beside their errors. -1 if there is none.
+  NodeId last_of(int tied, NodeId& parent) const {
+    NodeId last = -1;
+    parent = ground;
+    for (const NodeId node : nodes_of(structure_.tied[at(tied)])) {
+      if (!reached_[at(node)]) {
+        if (last >= 0 || structure_.kind[at(node)] == Kind::known || !needed_[at(node)]) return -1;
+        last = node;
+      } else if (!follows_time(node)) {
+        if (parent != ground || !needed_[at(node)]) return -1;
+        parent = node;
+      }
+    }
+    return last;
   }
 
   /// Starts from known nodes, and from nodes whose position is an unknown of its own.
@@ -60,6 +88,14 @@ class PositionFinder {
       if (structure_.kind[at(node)] != Kind::known) continue;
       if (structure_.of_time[at(node)]) reach(node);
       else integrate_alone(node);
+    }
+    // Locked trains, whose equations have no other node.
+    for (std::size_t r = 0; r < structure_.tied.size(); ++r) {
+      NodeId parent = ground;
+      const NodeId last = last_of(static_cast<int>(r), parent);
+      if (last < 0) continue;
+      result_.of[at(last)] = {.tied = static_cast<int>(r), .parent = parent};
+      reach(last);
     }
     for (const Blocks::Sensor& sensor : network_.blocks.sensors) {
       const bool of_position = sensor.what == Blocks::Sensor::What::position && sensor.motion < 0;
@@ -80,7 +116,7 @@ class PositionFinder {
     spread();
   }
 
-  /// Nodes joined by sticking sliders move as one: no deflection comes between.
+  /// Nodes joined by sticking sliders move as one, and those of a train in a ratio: no deflection comes between.
   void reach(NodeId node) {
     reached_[at(node)] = 1;
     order_.push_back(node);
@@ -93,6 +129,14 @@ class PositionFinder {
         reached_[at(other)] = 1;
         result_.of[at(other)] = {.sign = b.a == other ? 1.0 : -1.0, .slider = slider, .parent = from};
         order_.push_back(other);
+      }
+      for (const int tied : tied_[at(from)]) {
+        NodeId parent = ground;
+        const NodeId last = last_of(tied, parent);
+        if (last < 0) continue;
+        reached_[at(last)] = 1;
+        result_.of[at(last)] = {.tied = tied, .parent = parent};
+        order_.push_back(last);
       }
     }
   }
@@ -151,6 +195,7 @@ class PositionFinder {
   const std::vector<char>& needed_;
   std::vector<std::vector<int>> tight_, stuck_;   // at each node: branches whose deflection is their displacement; sliders
   std::vector<std::vector<NodeId>> beside_;       // neighbours across creep, sliders and rate laws
+  std::vector<std::vector<int>> tied_;            // at each node: equations of trains
   std::vector<char> reached_;
   std::vector<NodeId> order_;
   std::size_t spread_ = 0, looked_ = 0;           // positions in order_

@@ -8,12 +8,14 @@
 namespace rheonet {
 
 /// How the position of a node is found. It follows from the position of its parent through a deflection that is an unknown
-/// anyway, x = x_parent + sign (p + offset), or along a slider, by the displacement at which it sticks. Otherwise its distance
-/// from the parent is integrated, x = x_parent + y: that distance may be small where both move far. A node without neighbours
+/// anyway, x = x_parent + sign (p + offset), or along a slider, by the displacement at which it sticks, or from the equation of a train,
+/// whose other nodes are the parent and known ones: the sum of their positions, times their factors, remains what it was. Otherwise its
+/// distance from the parent is integrated, x = x_parent + y: that distance may be small where both move far. A node without neighbours
 /// has ground as its parent.
 struct Position {
   double sign = 1;
   int branch = -1, slider = -1;
+  int tied = -1;  ///< index into Structure::tied
   NodeId parent = ground;
   bool integrated = false;
 };

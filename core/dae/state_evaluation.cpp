@@ -95,6 +95,12 @@ const Dae::View& Dae::view(double t, const double* y, const double* yp) {
       position = parent + x.sign * (view_.p[at(x.branch)] + offset_[at(x.branch)]);
     } else if (x.slider >= 0) {
       position = parent + x.sign * slider_shift_[at(x.slider)];
+    } else if (x.tied >= 0) {
+      const Structure::Tied& tied = structure_->tied[at(x.tied)];
+      const auto own = std::find_if(tied.terms.begin(), tied.terms.end(), [&](const Structure::Tied::Term& term) { return term.node == node; });
+      const double factor = own == tied.terms.end() ? 1 : own->factor;
+      position = 0;
+      position = (tied_sum_[at(x.tied)] - sum_of(tied, view_.position)) / factor;
     }
   }
   viewed_ = {t, y, yp};

@@ -16,6 +16,7 @@
 #include "core/dae/train_force_trials.hpp"
 #include "core/network/adjacent_elements.hpp"
 #include "core/network/overload_report.hpp"
+#include "core/network/transmission.hpp"
 
 namespace rheonet {
 
@@ -134,6 +135,8 @@ StickForces::StickForces(const Network& network, const Structure& structure, con
     }
     return row[at(end)];
   };
+  // The norm is that of the forces in their own units: what is a change of units here may be an equation elsewhere.
+  const auto unit = [&](int element) { return std::abs(own_unit(Quantity::force, network.scene->elements[at(element)].scale)); };
   for (std::size_t k = 0; k < network.sliders.size(); ++k) {
     const Network::Slider& s = network.sliders[k];
     if (!structure.stuck[k]) continue;
@@ -145,7 +148,7 @@ StickForces::StickForces(const Network& network, const Structure& structure, con
     const std::size_t of = part_of(node);
     const int first = place(a);
     shared_[of].sliders.push_back(k);
-    branches[of].push_back({first, place(b), -s.box.backward.breakaway.value, s.box.forward.breakaway.value});
+    branches[of].push_back({first, place(b), -s.box.backward.breakaway.value, s.box.forward.breakaway.value, unit(s.branch.element)});
   }
   for (std::size_t k = 0; k < network.trains.size(); ++k) {
     const std::array<NodeId, 3>& nodes = network.trains[k].node;
@@ -170,6 +173,7 @@ StickForces::StickForces(const Network& network, const Structure& structure, con
       if (b.b >= 0) balance(b.b, column) -= 1;
       shared.with_trains.low.push_back(b.low);
       shared.with_trains.high.push_back(b.high);
+      shared.with_trains.unit.push_back(b.unit);
       ++column;
     }
     for (const std::size_t train : shared.trains) {
@@ -178,6 +182,7 @@ StickForces::StickForces(const Network& network, const Structure& structure, con
       }
       shared.with_trains.low.push_back(-std::numeric_limits<double>::infinity());
       shared.with_trains.high.push_back(std::numeric_limits<double>::infinity());
+      shared.with_trains.unit.push_back(unit(network.trains[train].element));
       ++column;
     }
   }
@@ -248,7 +253,7 @@ bool StickForces::share_within_losses(Shared& shared, const std::vector<double>&
     }
     double wider = 0, norm = 0;
     if (!problem.solve_widened(shared.load, force, wider)) continue;
-    for (const double f : force) norm += f * f;
+    for (std::size_t k = 0; k < force.size(); ++k) norm += std::pow(problem.unit[k] * force[k], 2);
     // Beyond the bounds, choices that differ by round-off alone count as equal.
     const double roundoff = numerics::balance_roundoff * largest(force);
     if (wider > narrowest + roundoff || (wider >= narrowest - roundoff && norm >= least)) continue;

@@ -160,7 +160,13 @@ class Trains {
     const auto found = from.find(pivot);
     if (found == from.end()) return;
     const double times = found->second;
-    for (const auto& [node, factor] : row) from[node] -= times * factor;
+    for (const auto& [node, factor] : row) {
+      double& left = from[node];
+      const double size = std::max(std::abs(left), std::abs(times * factor));
+      left -= times * factor;
+      // What cancels is no term: a factor of round-off would couple a node that the equation does not move.
+      if (std::abs(left) <= numerics::equal_given_values * size) from.erase(node);
+    }
     from.erase(pivot);
   }
 

@@ -22,15 +22,18 @@ struct BoxedForces::Factors : Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>
 
 namespace {
 
-/// The Laplacian matrix of unit conductances along the branches.
+double conductance_of(const BoxedBranch& b) { return 1 / (b.unit * b.unit); }
+
+/// The Laplacian matrix of the conductances along the branches.
 Eigen::SparseMatrix<double> laplacian(const std::vector<BoxedBranch>& branches, int nodes) {
   std::vector<Eigen::Triplet<double>> entries;
   for (const BoxedBranch& b : branches) {
-    if (b.a >= 0) entries.emplace_back(b.a, b.a, 1);
-    if (b.b >= 0) entries.emplace_back(b.b, b.b, 1);
+    const double c = conductance_of(b);
+    if (b.a >= 0) entries.emplace_back(b.a, b.a, c);
+    if (b.b >= 0) entries.emplace_back(b.b, b.b, c);
     if (b.a < 0 || b.b < 0) continue;
-    entries.emplace_back(b.a, b.b, -1);
-    entries.emplace_back(b.b, b.a, -1);
+    entries.emplace_back(b.a, b.b, -c);
+    entries.emplace_back(b.b, b.a, -c);
   }
   Eigen::SparseMatrix<double> matrix(nodes, nodes);
   matrix.setFromTriplets(entries.begin(), entries.end());
@@ -60,6 +63,8 @@ BoxedForces::BoxedForces(int nodes, std::vector<BoxedBranch> branches) : branche
 BoxedForces::BoxedForces(BoxedForces&&) noexcept = default;
 BoxedForces& BoxedForces::operator=(BoxedForces&&) noexcept = default;
 BoxedForces::~BoxedForces() = default;
+
+double BoxedForces::conductance(std::size_t k) const { return conductance_of(branches_[k]); }
 
 double BoxedForces::force_at(std::size_t k, double step) const {
   return std::clamp(difference_[k] + step * along_[k], branches_[k].low, branches_[k].high);
@@ -112,7 +117,7 @@ bool BoxedForces::without_bounds(const std::vector<double>& load, std::vector<do
     }
     bool within = true;
     for (std::size_t k = 0; k < branches_.size(); ++k) {
-      force[k] += difference(k, direction_);
+      force[k] += conductance(k) * difference(k, direction_);
       within = within && branches_[k].low <= force[k] && force[k] <= branches_[k].high;
     }
     if (!within) return false;
@@ -202,12 +207,12 @@ void BoxedForces::find_direction() {
   }
   for (std::size_t k = 0; k < branches_.size(); ++k) {
     const int a = unknown(branches_[k].a), b = unknown(branches_[k].b);
-    if (open_[k] && within(k) == inside) open.push_back({a, b, 1});
+    if (open_[k] && within(k) == inside) open.push_back({a, b, conductance(k)});
   }
   solve_conductances(open, d);
   const double length = std::ldexp(1, std::ilogb(d.cwiseAbs().maxCoeff()));
   for (int n = 0; n < nodes; ++n) direction_[at(n)] = unknown(n) < 0 ? 0 : d[unknown(n)] / length;
-  for (std::size_t k = 0; k < branches_.size(); ++k) along_[k] = open_[k] ? difference(k, direction_) : 0;
+  for (std::size_t k = 0; k < branches_.size(); ++k) along_[k] = open_[k] ? conductance(k) * difference(k, direction_) : 0;
 }
 
 /// Slope of the dual along the direction; it increases with the step.
@@ -215,7 +220,7 @@ double BoxedForces::slope_at(double step) const {
   double slope = 0;
   for (std::size_t n = 0; n < held_.size(); ++n) slope -= left_[n] * direction_[n];
   for (std::size_t k = 0; k < branches_.size(); ++k) {
-    if (along_[k] != 0) slope += (force_at(k, step) - force_at(k, 0)) * along_[k];
+    if (along_[k] != 0) slope += (force_at(k, step) - force_at(k, 0)) * (along_[k] / conductance(k));
   }
   return slope;
 }
@@ -236,7 +241,7 @@ double BoxedForces::minimum_along() const {
   double curvature = 0;
   for (std::size_t k = 0; k < branches_.size(); ++k) {
     const double u = difference_[k] + inside * along_[k];
-    if (branches_[k].low < u && u < branches_[k].high) curvature += along_[k] * along_[k];
+    if (branches_[k].low < u && u < branches_[k].high) curvature += along_[k] * (along_[k] / conductance(k));
   }
   if (curvature == 0) return first == breaks.end() ? std::numeric_limits<double>::infinity() : *first;
   const double step = low - slope_at(low) / curvature;
@@ -254,7 +259,7 @@ void BoxedForces::move(double step) {
 }
 
 /// Lets the branches of the cut carry the load of its nodes, each beyond its bound by the same share (by the same force if
-/// all bounds are 0). Subtracts their forces from `load`.
+/// all bounds are 0, in the units of the norm). Subtracts their forces from `load`.
 void BoxedForces::give_way(const OverloadedCut& cut, std::vector<double>& load, std::vector<double>& force) {
   const auto bound = [&](int k) {
     const BoxedBranch& b = branches_[at(k)];
@@ -265,10 +270,13 @@ void BoxedForces::give_way(const OverloadedCut& cut, std::vector<double>& load, 
     const BoxedBranch& b = branches_[at(k)];
     return b.a >= 0 && cut.inside[at(b.a)] ? cut.side : -cut.side;
   };
-  double capacity = 0;
-  for (const int k : cut.branches) capacity += std::abs(bound(k));
+  double capacity = 0, equal = 0;
   for (const int k : cut.branches) {
-    const double share = capacity > 0 ? std::abs(bound(k)) / capacity : 1 / static_cast<double>(cut.branches.size());
+    capacity += std::abs(bound(k));
+    equal += 1 / branches_[at(k)].unit;
+  }
+  for (const int k : cut.branches) {
+    const double share = capacity > 0 ? std::abs(bound(k)) / capacity : 1 / (branches_[at(k)].unit * equal);
     force[at(k)] = bound(k) + outward(k) * share * cut.excess;
     open_[at(k)] = 0;
     if (branches_[at(k)].a >= 0) load[at(branches_[at(k)].a)] -= force[at(k)];
@@ -287,7 +295,8 @@ void BoxedForces::give_way(const OverloadedCut& cut, std::vector<double>& load, 
 bool BoxedForces::of_least_norm(const std::vector<double>& force) {
   for (std::size_t k = 0; k < branches_.size(); ++k) {
     const BoxedBranch& b = branches_[k];
-    if (!open_[k] || std::abs(force[k] - std::clamp(difference(k, phi_), b.low, b.high)) <= 2 * grain_) continue;
+    const double c = conductance(k);
+    if (!open_[k] || std::abs(force[k] - std::clamp(c * difference(k, phi_), b.low, b.high)) <= 2 * c * grain_) continue;
     failed_branch_ = static_cast<int>(k);
     return false;
   }

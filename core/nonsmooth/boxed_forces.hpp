@@ -9,10 +9,10 @@ namespace rheonet {
 
 /// Forces in boxes that balance the loads at the nodes of a graph; where the balance leaves them open, those of least norm:
 ///
-///     minimise 1/2 sum f_k^2     subject to     sum of +-f_k = load_n  at every node,     low_k <= f_k <= high_k
+///     minimise 1/2 sum (unit_k f_k)^2     subject to     sum of +-f_k = load_n  at every node,     low_k <= f_k <= high_k
 ///
 /// Its dual is convex, piecewise quadratic and without constraints. Its unknowns are potentials phi of the nodes (0 where a
-/// node is held), and f_k = clamp(phi_a - phi_b, low_k, high_k). Newton's method on the active set, with exact line search, finds
+/// node is held), and f_k = clamp(c_k (phi_a - phi_b), low_k, high_k) with the conductance c_k = 1/unit_k^2. Newton's method on the active set, with exact line search, finds
 /// its minimum, where every node balances. (A quadratic network flow: Bertsekas, Network Optimization, 1998, chapter 8.)
 ///
 /// Where the dual has no minimum, a cut is overloaded. The branches of that cut then exceed their bounds, all by the same share,
@@ -48,6 +48,7 @@ class BoxedForces {
  private:
   struct Factors;
   double difference(std::size_t k, const std::vector<double>& of_nodes) const { return of_nodes[ends_[k].a] - of_nodes[ends_[k].b]; }
+  double conductance(std::size_t k) const;
   double force_at(std::size_t k, double step) const;
   double round_off(std::size_t node) const;
   bool balanced(const std::vector<double>& load, const std::vector<double>& force);
@@ -64,8 +65,8 @@ class BoxedForces {
   std::vector<BoxedBranch> branches_;
   std::vector<Ends> ends_;            ///< For each branch; held ends share the index after the last node.
   std::unique_ptr<Factors> factors_;  ///< Factors of the Laplacian of all branches.
-  std::vector<double> difference_;    ///< For each branch: phi_a - phi_b; stored apart because phi has larger round-off.
-  std::vector<double> phi_, direction_, along_;  ///< `along_`: of each branch, the difference of `direction_`.
+  std::vector<double> difference_;    ///< For each branch: c (phi_a - phi_b) [N]; stored apart because phi has larger round-off.
+  std::vector<double> phi_, direction_, along_;  ///< `along_`: of each branch, c times the difference of `direction_`.
   std::vector<double> left_, magnitude_;         ///< For each node: force out of balance, sum of magnitudes [N].
   std::vector<int> terms_;                       ///< For each node: number of terms.
   std::vector<char> held_;  ///< For each node: its balance follows from the balances of other nodes.

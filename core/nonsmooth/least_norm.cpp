@@ -28,37 +28,49 @@ struct WideBound {
 /// By how much the bounds of a contradiction are too narrow: a share of those of the problem, or a force [N].
 struct Excess { double share = 0, force = 0; };
 
-/// The method, for bounds that are `1 + share` times as far as those of the problem, and farther by `wider`.
+/// The method, for bounds that are `1 + share` times as far as those of the problem, and farther by `wider`. All forces in here are in the
+/// units of the norm.
 class DualActiveSet {
  public:
-  DualActiveSet(const LeastNorm& problem, const Eigen::VectorXd& load, double share, double wider = 0) : problem_(problem), share_(share), wider_(wider) {
+  DualActiveSet(const LeastNorm& problem, const Eigen::VectorXd& load, double share, double wider = 0)
+      : problem_(problem), share_(share), wider_(wider), unit_(Eigen::VectorXd::Ones(problem.balance.cols())) {
+    if (!problem.unit.empty()) unit_ = Eigen::Map<const Eigen::VectorXd>(problem.unit.data(), unit_.size());
     const std::size_t forces = problem.low.size();
     for (std::size_t k = 0; k < forces; ++k) {
       const auto force = static_cast<Eigen::Index>(k);
-      bounds_.push_back({force, 1, wider - (1 + share) * problem.low[k]});
-      bounds_.push_back({force, -1, wider + (1 + share) * problem.high[k]});
+      bounds_.push_back({force, 1, wider - (1 + share) * unit_[force] * problem.low[k]});
+      bounds_.push_back({force, -1, wider + (1 + share) * unit_[force] * problem.high[k]});
     }
     for (const auto& [force, other, low_slope, high_slope] : problem.following) {
+      const auto of = static_cast<Eigen::Index>(other);
       for (const std::size_t side : {0, 1}) {
-        bounds_[2 * force + side].other = static_cast<Eigen::Index>(other);
-        bounds_[2 * force + side].slope = side == 0 ? low_slope : high_slope;
+        bounds_[2 * force + side].other = of;
+        bounds_[2 * force + side].slope = (side == 0 ? low_slope : high_slope) * (unit_[static_cast<Eigen::Index>(force)] / unit_[of]);
       }
     }
     rows_.resize(problem.balance.cols(), 0);
     without_bounds_.setZero(problem.balance.cols());
     if (problem.balance.size() == 0) return;
+    const Eigen::MatrixXd balance = problem.balance * unit_.cwiseInverse().asDiagonal();
     // Where forces were taken out, balances may depend on each other.
-    Eigen::ColPivHouseholderQR<Eigen::MatrixXd> factors(problem.balance.cols(), problem.balance.rows());
+    Eigen::ColPivHouseholderQR<Eigen::MatrixXd> factors(balance.cols(), balance.rows());
     factors.setThreshold(numerics::equal_values);
-    factors.compute(problem.balance.transpose());
-    rows_ = factors.householderQ() * Eigen::MatrixXd::Identity(problem.balance.cols(), factors.rank());
+    factors.compute(balance.transpose());
+    rows_ = factors.householderQ() * Eigen::MatrixXd::Identity(balance.cols(), factors.rank());
     if (factors.rank() == 0) return;
-    without_bounds_ = rows_ * (problem.balance * rows_).colPivHouseholderQr().solve(load);
+    without_bounds_ = rows_ * (balance * rows_).colPivHouseholderQr().solve(load);
     roundoff_ = numerics::equation_roundoff * without_bounds_.lpNorm<Eigen::Infinity>();
   }
 
   /// Meets all bounds. False if that is impossible: `cut` are the bounds that contradict the load, too narrow by `excess` beside those of the problem.
   bool solve(Eigen::VectorXd& x, std::vector<WideBound>& cut, Excess& excess) {
+    const bool solved = solve_in_units(x, cut, excess);
+    x = x.cwiseQuotient(unit_).eval();
+    return solved;
+  }
+
+ private:
+  bool solve_in_units(Eigen::VectorXd& x, std::vector<WideBound>& cut, Excess& excess) {
     x = without_bounds_;
     const std::size_t most = numerics::least_rounds + numerics::rounds_a_branch * problem_.low.size();
     for (std::size_t round = 0; round < most; ++round) {
@@ -112,7 +124,6 @@ class DualActiveSet {
     return false;
   }
 
- private:
   static double slack(const WideBound& b, const Eigen::VectorXd& x) { return b.side * x[b.force] + b.slope * x[b.other] + b.width; }
   Eigen::VectorXd normal_of(const WideBound& b) const {
     Eigen::VectorXd normal = b.side * Eigen::VectorXd::Unit(rows_.rows(), b.force);
@@ -157,6 +168,7 @@ class DualActiveSet {
 
   const LeastNorm& problem_;
   double share_, wider_;
+  Eigen::VectorXd unit_;            ///< of each force
   Eigen::MatrixXd rows_;            ///< orthonormal combinations of the balances, one a column
   Eigen::VectorXd without_bounds_;  ///< forces of least norm
   double roundoff_ = 0;             ///< of forces: a bound of 0 cannot be met better
@@ -214,6 +226,7 @@ bool LeastNorm::solve(const std::vector<double>& load, std::vector<double>& forc
     for (const Eigen::Index k : open) {
       rest.low.push_back(low[static_cast<std::size_t>(k)]);
       rest.high.push_back(high[static_cast<std::size_t>(k)]);
+      if (!unit.empty()) rest.unit.push_back(unit[static_cast<std::size_t>(k)]);
     }
     const Eigen::VectorXd left = loads - balance * x;
     Eigen::VectorXd found;

@@ -7,7 +7,7 @@ namespace rheonet {
 
 /// The forces x of least norm that balance loads within bounds,
 ///
-///     minimise 1/2 x'x     subject to     B x = load,     low <= x <= high,
+///     minimise 1/2 sum (unit_k x_k)^2     subject to     B x = load,     low <= x <= high,
 ///
 /// by the dual active set method of Goldfarb and Idnani (Mathematical Programming 27 (1983) 1): from the forces without bounds, one
 /// violated bound after the other is met. It ends after finitely many steps, and knows where nothing meets all bounds. Then the bounds
@@ -17,6 +17,7 @@ namespace rheonet {
 struct LeastNorm {
   Eigen::MatrixXd balance;        ///< B: a row a node, of full rank
   std::vector<double> low, high;  ///< of each force [N]; low <= 0 <= high but for forces that follow others
+  std::vector<double> unit = {};  ///< of each force; empty: 1
   /// The bounds of `force` follow another force x: they are low - low_slope x and high + high_slope x.
   struct Following {
     std::size_t force, other;
@@ -35,7 +36,7 @@ struct LeastNorm {
   };
   /// The same, but where nothing within the bounds balances the loads it writes the bounds that contradict them, and no forces.
   bool solve_within(const std::vector<double>& load, std::vector<double>& force, std::vector<Bound>& contradiction) const;
-  /// The same, but with all bounds wider by one force, the least one with which something balances the loads [N].
+  /// The same, but with all bounds wider by one force, the least one with which something balances the loads [N, in the units of the norm].
   bool solve_widened(const std::vector<double>& load, std::vector<double>& force, double& wider) const;
 };
 

@@ -6,8 +6,8 @@
 namespace rheonet {
 
 /// A branch of a graph, whose force f acts on node a and -f on node b, and lies between `low` and `high` [N] (either may be
-/// infinite). A node of -1 is held: it takes any force.
-struct BoxedBranch { int a, b; double low, high; };
+/// infinite). A node of -1 is held: it takes any force. In a norm of forces f counts as `unit` times f.
+struct BoxedBranch { int a, b; double low, high, unit = 1; };
 
 /// A set of nodes whose load exceeds the force that the branches leaving the set can carry. The set is connected, and so is
 /// the rest of the graph with its held nodes.

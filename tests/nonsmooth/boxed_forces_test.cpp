@@ -63,17 +63,15 @@ long networks_to_try() {
   return given ? std::atol(given) : 4000;
 }
 
-}  // namespace
-
-TEST_CASE("sliders that stick share a load as an independent method has it") {
-  Random random(20261124);
+/// With `units`, the forces of a network have different units.
+void compare_with_reference(Random random, long wanted, bool units) {
   long active = 0, overloaded = 0, tight = 0;
   double worst = 0;
-  const long wanted = networks_to_try();
   for (long number = 0; active < wanted; ++number) {
     // Forces from 1e-12 to 1e12 N; sliders of a kind, and such that differ by up to 12 decades; every fourth network may be overloaded.
     const double spread = number % 2 == 0 ? 3 : 1e6, part = number % 4 == 3 ? 1.2 : 1;
-    const SliderNetwork network = random_network(random, random.around(1, 1e12), spread, part);
+    SliderNetwork network = random_network(random, random.around(1, 1e12), spread, part);
+    for (BoxedBranch& b : network.branches) b.unit = units ? random.around(1, 5) : 1;
     const Solved found = solved(network);
     const std::optional<ReferenceForces> reference = reference_forces(network.nodes, network.branches, network.load);
     CAPTURE(number);
@@ -98,6 +96,12 @@ TEST_CASE("sliders that stick share a load as an independent method has it") {
   CHECK(tight < wanted / 10);
   MESSAGE(fmt::format("{} networks with active bounds, {} overloaded ones; largest difference {:.1e} of the load", active, overloaded, worst));
 }
+
+}  // namespace
+
+TEST_CASE("sliders that stick share a load as an independent method has it") { compare_with_reference(Random(20261124), networks_to_try(), false); }
+
+TEST_CASE("so do sliders whose forces have units of their own") { compare_with_reference(Random(20261127), networks_to_try() / 4, true); }
 
 TEST_CASE("forces of large grids of sliders meet the conditions of least norm") {
   Random random(7);

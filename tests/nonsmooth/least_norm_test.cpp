@@ -236,6 +236,36 @@ TEST_CASE("least norm: random balances, beside the answer among all guesses and 
   CHECK(beyond > 500);
 }
 
+TEST_CASE("least norm: forces in units of their own are those of the same problem with all forces in one unit") {
+  int beyond = 0;
+  std::mt19937 random(29);
+  for (int n = 0; n < 1000; ++n) {
+    CAPTURE(n);
+    const Problem p = random_problem(random, false);
+    LeastNorm scaled = p.problem;
+    for (Eigen::Index k = 0; k < p.forces(); ++k) {
+      const auto place = static_cast<std::size_t>(k);
+      const double unit = std::uniform_real_distribution(0.2, 5.0)(random);
+      scaled.unit.push_back(unit);
+      scaled.balance.col(k) *= unit;
+      scaled.low[place] /= unit;
+      scaled.high[place] /= unit;
+    }
+    const std::vector<double> load(p.load.begin(), p.load.end());
+    std::vector<double> force, same;
+    REQUIRE(p.problem.solve(load, force));
+    REQUIRE(scaled.solve(load, same));
+    for (std::size_t k = 0; k < force.size(); ++k) CHECK(std::abs(same[k] * scaled.unit[k] - force[k]) < 1e-8);
+    double wider = 0, wider_too = 0;
+    REQUIRE(p.problem.solve_widened(load, force, wider));
+    REQUIRE(scaled.solve_widened(load, same, wider_too));
+    CHECK(wider_too == doctest::Approx(wider).epsilon(1e-9));
+    for (std::size_t k = 0; k < force.size(); ++k) CHECK(std::abs(same[k] * scaled.unit[k] - force[k]) < 1e-6);
+    beyond += wider > 0;
+  }
+  CHECK(beyond > 100);
+}
+
 TEST_CASE("least norm: two forces against a third without bounds, in closed form") {
   // f1 + i g = L1, f2 - g = L2: only f1 + i f2 = L1 + i L2 is balanced by f1 and f2.
   LeastNorm problem;

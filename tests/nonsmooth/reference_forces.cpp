@@ -29,8 +29,8 @@ class Guess {
           equation[nodes_] -= sign * static_cast<Real>(side[k] > 0 ? b.high : b.low);
           return;
         }
-        equation[static_cast<std::size_t>(row)] += 1;
-        if (other >= 0) equation[static_cast<std::size_t>(other)] -= 1;
+        equation[static_cast<std::size_t>(row)] += conductance(k);
+        if (other >= 0) equation[static_cast<std::size_t>(other)] -= conductance(k);
       };
       add(b.a, b.b, 1);
       add(b.b, b.a, -1);
@@ -54,16 +54,17 @@ class Guess {
       return node < 0 ? 0 : a[n][nodes_] / a[n][n];
     };
     for (std::size_t n = 0; n < nodes_; ++n) scale_ = std::max(scale_, std::abs(phi(static_cast<int>(n))));
-    for (std::size_t k = 0; k < u_.size(); ++k) u_[k] = phi(branches_[k].a) - phi(branches_[k].b);
+    for (std::size_t k = 0; k < u_.size(); ++k) u_[k] = conductance(k) * (phi(branches_[k].a) - phi(branches_[k].b));
     return true;
   }
 
-  /// Where the difference of potentials of a branch lies against its box.
+  Real conductance(std::size_t k) const { return 1 / (static_cast<Real>(branches_[k].unit) * branches_[k].unit); }
+  /// Where the force of a branch without bounds lies against its box.
   int side(std::size_t k) const { return u_[k] > branches_[k].high ? 1 : u_[k] < branches_[k].low ? -1 : 0; }
   /// A force at its bound is pushed beyond it, and a free one is within.
   bool meets(const std::vector<int>& guess) const {
     for (std::size_t k = 0; k < u_.size(); ++k) {
-      const Real low = branches_[k].low, high = branches_[k].high, slack = rounding * scale_;
+      const Real low = branches_[k].low, high = branches_[k].high, slack = rounding * scale_ * conductance(k);
       const bool good = guess[k] == 0 ? u_[k] >= low - slack && u_[k] <= high + slack
                                       : guess[k] > 0 ? u_[k] >= high - slack : u_[k] <= low + slack;
       if (!good) return false;
