@@ -10,6 +10,7 @@
 #include "core/base/format_list.hpp"
 #include "core/base/index.hpp"
 #include "core/base/numerics.hpp"
+#include "core/dae/unknown_names.hpp"
 #include "core/network/adjacent_elements.hpp"
 
 namespace rheonet {
@@ -22,13 +23,13 @@ Consistency::Consistency(Dae& dae) : dae_(dae), elimination_(dae.pattern()) {
   };
   branch_.assign(n, -1);
   for (std::size_t j = 0; j < dae.network().deflections.size(); ++j) {
-    const int unknown = dae.deflection_unknown(static_cast<int>(j));
+    const int unknown = dae.indices().deflection[j];
     set(unknown, 1);
     if (unknown >= 0) branch_[at(unknown)] = static_cast<int>(j);
   }
-  for (std::size_t r = 0; r < dae.network().rates.size(); ++r) set(dae.force_unknown(static_cast<int>(r)), 2);
-  for (std::size_t k = 0; k < dae.structure().kind.size(); ++k) set(dae.position_unknown(static_cast<NodeId>(k)), 3);
-  for (std::size_t k = 0; k < dae.inputs().blocks().states(); ++k) set(dae.block_unknown(k), 4);
+  for (std::size_t r = 0; r < dae.network().rates.size(); ++r) set(dae.indices().force[r], 2);
+  for (std::size_t k = 0; k < dae.structure().kind.size(); ++k) set(dae.indices().position[k], 3);
+  for (std::size_t k = 0; k < dae.inputs().blocks().states(); ++k) set(dae.indices().block[k], 4);
 }
 
 void Consistency::wake() {
@@ -110,10 +111,10 @@ void Consistency::report_unsolved(double t) {
     worst = static_cast<int>(i);
     most = std::isnan(share) ? std::numeric_limits<double>::infinity() : share;
   }
-  throw UndeterminedError(dae_.spot_of(worst), fmt::format(
+  throw UndeterminedError(UnknownNames(dae_).spot_of(worst), fmt::format(
       "{} no state was found in which the forces balance, least of all for {}: the values of {} may lie too far "
       "apart for double precision; check them",
-      at_time(*dae_.network().scene, t), dae_.describe(worst), dae_.around(worst)));
+      at_time(*dae_.network().scene, t), UnknownNames(dae_).describe(worst), UnknownNames(dae_).around(worst)));
 }
 
 /// One infinite rate makes the rates that are solved with it infinite: report the first equation that yields one by itself.
@@ -125,10 +126,10 @@ void Consistency::report_rate(double t, int unknown) {
     unknown = equation;
     break;
   }
-  throw UndeterminedError(dae_.spot_of(unknown), fmt::format(
+  throw UndeterminedError(UnknownNames(dae_).spot_of(unknown), fmt::format(
       "{} {} changes at a rate beyond the range of double precision: a force or velocity there is too large, or a mass, "
       "damping or stiffness too small against it; check the values of {}",
-      at_time(*dae_.network().scene, t), dae_.describe(unknown), dae_.around(unknown)));
+      at_time(*dae_.network().scene, t), UnknownNames(dae_).describe(unknown), UnknownNames(dae_).around(unknown)));
 }
 
 void Consistency::derivative(double t, const std::vector<double>& y, std::vector<double>& yp) {

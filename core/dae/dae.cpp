@@ -21,8 +21,8 @@ Dae::Dae(const Network& network, const Structure& structure, Inputs& inputs, con
       positions_(find_positions(network, structure, needed)) {
   const std::size_t nodes = network.nodes(), nd = network.deflections.size(), nr = network.rates.size();
   number_unknowns();
-  for (NodeId node : positions_.integrated) ix_[at(node)] = size_++;
-  for (std::size_t k = 0; k < inputs.blocks().states(); ++k) iz_.push_back(size_++);
+  for (NodeId node : positions_.integrated) index_.position[at(node)] = size_++;
+  for (std::size_t k = 0; k < inputs.blocks().states(); ++k) index_.block.push_back(size_++);
 
   // All motions are given, but IDA needs an equation: y' = 0 costs nothing.
   idle_ = size_ == 0;
@@ -30,11 +30,11 @@ Dae::Dae(const Network& network, const Structure& structure, Inputs& inputs, con
 
   rows_.reserve(structure.closing.size() + positions_.integrated.size());
   felt_terms_.resize(inputs.history().delayed().size());
-  for (const int branch : structure.closing) add_row(ip_[at(branch)], false, closed_loop(network, structure, branch));
+  for (const int branch : structure.closing) add_row(index_.deflection[at(branch)], false, closed_loop(network, structure, branch));
   for (NodeId node : positions_.integrated) {
-    add_row(ix_[at(node)], true, minus_velocity(structure, node, positions_.of[at(node)].parent));
+    add_row(index_.position[at(node)], true, minus_velocity(structure, node, positions_.of[at(node)].parent));
   }
-  for (const Structure::Group& g : structure.groups) group_row_.push_back(g.tie < 0 ? ip_[at(g.tree_branch)] : -1);
+  for (const Structure::Group& g : structure.groups) group_row_.push_back(g.tie < 0 ? index_.deflection[at(g.tree_branch)] : -1);
 
   offset_.assign(nd, 0);
   driven_from_ = offset_;
@@ -67,7 +67,7 @@ Dae::Dae(const Network& network, const Structure& structure, Inputs& inputs, con
   view_.p = view_.f = view_.creep = view_.flow = view_.dp = df_;
   view_.rate_velocity = view_.rate_force = rate_in_;
   build_pattern();
-  find_loose_dashpots();
+  loose_dashpots_ = LooseDashpots(network, structure, index_.force);
   follows_time_ = (inputs.fastest() > 0 || !network.blocks.blocks.empty()) && any_follows_time();
 }
 
@@ -77,7 +77,7 @@ Dae::Terms Dae::add_terms(const Structure::Loop& loop) {
   flows_.insert(flows_.end(), loop.flows.begin(), loop.flows.end());
   for (const Structure::Term& term : loop.velocities) {
     // The reference of a group has no velocity of its own.
-    if (structure_->kind[at(term.index)] == Kind::known || iv_[at(term.index)] >= 0) velocities_.push_back(term);
+    if (structure_->kind[at(term.index)] == Kind::known || index_.velocity[at(term.index)] >= 0) velocities_.push_back(term);
   }
   terms.flow_end = static_cast<int>(flows_.size());
   terms.velocity_end = static_cast<int>(velocities_.size());
@@ -121,51 +121,51 @@ void Dae::build_pattern() {
   draft_rates(drafts);
   draft_rows(drafts);
   if (idle_) drafts.put_mass(0, 0, 1);
-  for (const int z : iz_) drafts.put_mass(z, z, 1);
+  for (const int z : index_.block) drafts.put_mass(z, z, 1);
   build_couplings(drafts.builder);
   share_balances_of_pivots(drafts);
   couple_shares(drafts.builder);
   find_parallels();
   for (Follower& f : followers_) {
-    f.own_entry = drafts.builder.ticket(f.row, ip_[at(f.branch)]);
-    f.leader_entry = drafts.builder.ticket(f.row, ip_[at(f.leader)]);
+    f.own_entry = drafts.builder.ticket(f.row, index_.deflection[at(f.branch)]);
+    f.leader_entry = drafts.builder.ticket(f.row, index_.deflection[at(f.leader)]);
   }
   take_entries(drafts);
-  moving_.assign(ip_.size(), 1);
+  moving_.assign(index_.deflection.size(), 1);
   update_holds();
 }
 
 /// Balances: a branch adds +f at its first node and -f at its second; a group's row is the sum over its nodes.
 void Dae::draft_balances(Drafts& drafts) const {
-  const auto balance_row = [&](NodeId node) { return iv_[at(node)]; };
+  const auto balance_row = [&](NodeId node) { return index_.velocity[at(node)]; };
   const auto group_row = [&](NodeId node) { return balance_of_group(node); };
   for (std::size_t j = 0; j < structure_->deflections.size(); ++j) {
     const Branch& b = structure_->deflections[j];
     if (b.a == b.b) continue;
     const int index = static_cast<int>(j);
-    drafts.depend(balance_row(b.a), ip_[j], Source::force, index, 1);
-    drafts.depend(balance_row(b.b), ip_[j], Source::force, index, -1);
+    drafts.depend(balance_row(b.a), index_.deflection[j], Source::force, index, 1);
+    drafts.depend(balance_row(b.b), index_.deflection[j], Source::force, index, -1);
     if (group_row(b.a) == group_row(b.b)) continue;  // within one group the two ends cancel
-    drafts.depend(group_row(b.a), ip_[j], Source::force, index, 1);
-    drafts.depend(group_row(b.b), ip_[j], Source::force, index, -1);
+    drafts.depend(group_row(b.a), index_.deflection[j], Source::force, index, 1);
+    drafts.depend(group_row(b.b), index_.deflection[j], Source::force, index, -1);
   }
-  for (std::size_t n = 0; n < iv_.size(); ++n) {
-    if (structure_->kind[n] == Kind::massive) drafts.put_mass(iv_[n], iv_[n], structure_->mass[n]);
+  for (std::size_t n = 0; n < index_.velocity.size(); ++n) {
+    if (structure_->kind[n] == Kind::massive) drafts.put_mass(index_.velocity[n], index_.velocity[n], structure_->mass[n]);
   }
   for (std::size_t k = 0; k < structure_->inerters.size(); ++k) {
     const Branch& b = structure_->inerters[k];
     if (b.a == b.b) continue;
     const double inertance = network_->inerters[k].inertance;
-    for (const NodeId node : {b.a, b.b}) drafts.put_mass(iv_[at(node)], iv_[at(node)], inertance);
-    drafts.put_mass(iv_[at(b.a)], iv_[at(b.b)], -inertance);
-    drafts.put_mass(iv_[at(b.b)], iv_[at(b.a)], -inertance);
+    for (const NodeId node : {b.a, b.b}) drafts.put_mass(index_.velocity[at(node)], index_.velocity[at(node)], inertance);
+    drafts.put_mass(index_.velocity[at(b.a)], index_.velocity[at(b.b)], -inertance);
+    drafts.put_mass(index_.velocity[at(b.b)], index_.velocity[at(b.a)], -inertance);
   }
 }
 
 void Dae::share_balances_of_pivots(Drafts& drafts) {
   if (equations_.empty()) return;
   std::map<int, std::size_t> of_row;  // the equation of each pivot's row
-  for (std::size_t r = 0; r < equations_.size(); ++r) of_row.emplace(iv_[at(equations_[r].pivot)], r);
+  for (std::size_t r = 0; r < equations_.size(); ++r) of_row.emplace(index_.velocity[at(equations_[r].pivot)], r);
   std::vector<Constant> masses;
   std::swap(masses, drafts.masses);
   for (const Constant& mass : masses) {
@@ -177,7 +177,7 @@ void Dae::share_balances_of_pivots(Drafts& drafts) {
     }
     const std::vector<Structure::Tied::Term>& shares = equations_[found->second].shares;
     for (std::size_t i = 0; i < shares.size(); ++i) {
-      shared_masses_.push_back({drafts.builder.ticket(iv_[at(shares[i].node)], place.column), found->second, i, mass.value});
+      shared_masses_.push_back({drafts.builder.ticket(index_.velocity[at(shares[i].node)], place.column), found->second, i, mass.value});
     }
   }
   std::set<std::pair<int, int>> places;  // row and column
@@ -188,13 +188,13 @@ void Dae::share_balances_of_pivots(Drafts& drafts) {
     const std::size_t r = of_row.at(from);
     const std::vector<Structure::Tied::Term>& shares = equations_[r].shares;
     for (std::size_t i = 0; i < shares.size(); ++i) {
-      shared_entries_.push_back({drafts.builder.ticket(from, column), drafts.builder.ticket(iv_[at(shares[i].node)], column), r, i});
+      shared_entries_.push_back({drafts.builder.ticket(from, column), drafts.builder.ticket(index_.velocity[at(shares[i].node)], column), r, i});
     }
   }
   for (const auto& [row, r] : of_row) {
     tied_.push_back({drafts.builder.ticket(row, row), 1});
     for (const auto& [node, factor] : equations_[r].terms) {
-      if (iv_[at(node)] >= 0) tied_.push_back({drafts.builder.ticket(row, iv_[at(node)]), factor});
+      if (index_.velocity[at(node)] >= 0) tied_.push_back({drafts.builder.ticket(row, index_.velocity[at(node)]), factor});
     }
   }
 }
@@ -212,19 +212,19 @@ void Dae::draft_rates(Drafts& drafts) const {
     if (b.a == b.b) continue;
     const int index = static_cast<int>(r);
     for (const Sign sign : {Sign{1}, Sign{-1}}) {
-      const int row = iv_[at(sign > 0 ? b.a : b.b)];
+      const int row = index_.velocity[at(sign > 0 ? b.a : b.b)];
       if (row < 0) continue;
-      if (if_[r] >= 0) {
-        drafts.put(row, if_[r], sign);
+      if (index_.force[r] >= 0) {
+        drafts.put(row, index_.force[r], sign);
       } else {
-        drafts.depend(row, iv_[at(b.a)], Source::rate, index, sign);
-        drafts.depend(row, iv_[at(b.b)], Source::rate, index, sign > 0 ? Sign{-1} : Sign{1});
+        drafts.depend(row, index_.velocity[at(b.a)], Source::rate, index, sign);
+        drafts.depend(row, index_.velocity[at(b.b)], Source::rate, index, sign > 0 ? Sign{-1} : Sign{1});
       }
     }
-    if (if_[r] >= 0) {
-      drafts.put(if_[r], iv_[at(b.a)], 1);
-      drafts.put(if_[r], iv_[at(b.b)], -1);
-      drafts.depend(if_[r], if_[r], Source::rate, index, -1);
+    if (index_.force[r] >= 0) {
+      drafts.put(index_.force[r], index_.velocity[at(b.a)], 1);
+      drafts.put(index_.force[r], index_.velocity[at(b.b)], -1);
+      drafts.depend(index_.force[r], index_.force[r], Source::rate, index, -1);
     }
   }
 }
@@ -234,18 +234,18 @@ void Dae::draft_rows(Drafts& drafts) {
     if (row.position) drafts.put_mass(row.row, row.row, 1);
     for (int k = row.terms.flow_begin; k < row.terms.flow_end; ++k) {
       const auto [j, sign] = flows_[at(k)];
-      flow_entries_.push_back({drafts.builder.ticket(row.row, ip_[at(j)]), j, sign});
+      flow_entries_.push_back({drafts.builder.ticket(row.row, index_.deflection[at(j)]), j, sign});
       std::size_t i = 0;
-      if (batch_of(j, i).creeps(i)) creep_entries_.push_back({drafts.builder.ticket(row.row, ip_[at(j)]), j, sign});
+      if (batch_of(j, i).creeps(i)) creep_entries_.push_back({drafts.builder.ticket(row.row, index_.deflection[at(j)]), j, sign});
     }
     for (int k = row.terms.velocity_begin; k < row.terms.velocity_end; ++k) {
-      drafts.put(row.row, iv_[at(velocities_[at(k)].index)], velocities_[at(k)].sign);
+      drafts.put(row.row, index_.velocity[at(velocities_[at(k)].index)], velocities_[at(k)].sign);
     }
     if (row.delayed < 0) continue;
     const Terms& now = felt_terms_[at(row.delayed)];
     for (int k = now.velocity_begin; k < now.velocity_end; ++k) {
       const auto [node, sign] = velocities_[at(k)];
-      if (iv_[at(node)] >= 0) felt_entries_.push_back({drafts.builder.ticket(row.row, iv_[at(node)]), row.delayed, sign});
+      if (index_.velocity[at(node)] >= 0) felt_entries_.push_back({drafts.builder.ticket(row.row, index_.velocity[at(node)]), row.delayed, sign});
     }
   }
 }
@@ -273,7 +273,7 @@ void Dae::take_entries(Drafts& drafts) {
   }
   take(tied_);
   std::vector<char> of_pivot(at(size_), 0);
-  for (const Structure::Tied& tied : structure_->tied) of_pivot[at(iv_[at(tied.pivot)])] = 1;
+  for (const Structure::Tied& tied : structure_->tied) of_pivot[at(index_.velocity[at(tied.pivot)])] = 1;
   for (int e = 0; !structure_->tied.empty() && e < pattern_.entries(); ++e) {
     if (of_pivot[at(pattern_.row[at(e)])]) pivot_entries_.push_back(e);
   }
@@ -314,10 +314,10 @@ void Dae::enter(double t, const State& state, const Modes& modes, std::vector<do
   }
   follow_losses();
   y.assign(at(size_), 0);
-  for (std::size_t j = 0; j < ip_.size(); ++j) {
+  for (std::size_t j = 0; j < index_.deflection.size(); ++j) {
     const Branch& b = structure_->deflections[j];
-    if (ip_[j] >= 0) {
-      y[at(ip_[j])] = state.p[j];
+    if (index_.deflection[j] >= 0) {
+      y[at(index_.deflection[j])] = state.p[j];
     } else {
       driven_from_[j] = state.p[j] - known_way(b, t);
     }
@@ -326,14 +326,14 @@ void Dae::enter(double t, const State& state, const Modes& modes, std::vector<do
   for (const NodeId node : positions_.order) {
     if (const int r = positions_.of[at(node)].tied; r >= 0) tied_sum_[at(r)] = sum_of(structure_->tied[at(r)], place);
   }
-  for (std::size_t n = 0; n < iv_.size(); ++n) {
-    if (ix_[n] >= 0) y[at(ix_[n])] = state.position[n] - place[at(positions_.of[n].parent)];
-    if (iv_[n] < 0) continue;
+  for (std::size_t n = 0; n < index_.velocity.size(); ++n) {
+    if (index_.position[n] >= 0) y[at(index_.position[n])] = state.position[n] - place[at(positions_.of[n].parent)];
+    if (index_.velocity[n] < 0) continue;
     const int group = structure_->group[n];
     const double base = group < 0 ? 0 : state.velocity[at(structure_->groups[at(group)].nodes.front())];
-    y[at(iv_[n])] = state.velocity[n] - base;
+    y[at(index_.velocity[n])] = state.velocity[n] - base;
   }
-  for (std::size_t k = 0; k < iz_.size(); ++k) y[at(iz_[k])] = state.blocks[k];
+  for (std::size_t k = 0; k < index_.block.size(); ++k) y[at(index_.block[k])] = state.blocks[k];
   guess_forces(t, y.data());
 }
 
@@ -362,7 +362,7 @@ void Dae::leave(State& state) const {
   state.velocity = view_.velocity;
   state.p = view_.p;
   state.train_force = view_.train_force;
-  for (std::size_t k = 0; k < iz_.size(); ++k) state.blocks[k] = inputs_->blocks().state[k].value;
+  for (std::size_t k = 0; k < index_.block.size(); ++k) state.blocks[k] = inputs_->blocks().state[k].value;
   for (NodeId node : positions_.order) state.position[at(node)] = view_.position[at(node)];
 }
 

@@ -3,17 +3,18 @@
 #include <algorithm>
 #include <array>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "core/base/disjoint_sets.hpp"
 #include "core/base/index.hpp"
 #include "core/dae/inertia_matrix.hpp"
 #include "core/dae/inputs.hpp"
+#include "core/dae/loose_dashpots.hpp"
 #include "core/dae/matrix.hpp"
 #include "core/dae/positions.hpp"
 #include "core/dae/state.hpp"
 #include "core/dae/stick_forces.hpp"
+#include "core/dae/unknown_indices.hpp"
 #include "core/network/network.hpp"
 #include "core/network/structure.hpp"
 #include "core/network/train_shares.hpp"
@@ -50,6 +51,7 @@ class Dae {
   const Network& network() const { return *network_; }
   const Structure& structure() const { return *structure_; }
   Inputs& inputs() { return *inputs_; }
+  const Inputs& inputs() const { return *inputs_; }
 
   /// Starts from a state at time t. Sliders slip in the directions of `modes` (the structure says which ones stick). Writes y,
   /// and prepares the laws of the network for these equations.
@@ -67,7 +69,7 @@ class Dae {
   bool differential(int row) const { return differential_[static_cast<std::size_t>(row)] != 0; }
   /// The equation in this row is that of a train.
   bool tied(int row) const {
-    return std::any_of(structure_->tied.begin(), structure_->tied.end(), [&](const Structure::Tied& tied) { return iv_[at(tied.pivot)] == row; });
+    return std::any_of(structure_->tied.begin(), structure_->tied.end(), [&](const Structure::Tied& tied) { return index_.velocity[at(tied.pivot)] == row; });
   }
   /// Rows of dF/dy' for differential equations, of dF/dy for algebraic ones: the matrix that determines y' and jumps.
   void consistency_matrix(double t, const double* y, double* values);
@@ -95,6 +97,9 @@ class Dae {
     std::vector<double> position;      ///< For each known node, and for those marked as needed [m].
   };
   const View& view(double t, const double* y, const double* yp);
+  const View& viewed() const { return view_; }
+  /// For each train: factors of its force in the balances of its nodes, as in Structure, with the present losses.
+  const std::vector<std::array<double, 3>>& train_forces() const { return train_forces_; }
   /// Makes a double stand for the exact time t (see Inputs::refine). The view is computed anew if that changes anything.
   void refine(TimePoint t) {
     if (inputs_->refine(t)) viewed_ = {};
@@ -123,35 +128,11 @@ class Dae {
   /// y' of this unknown occurs in some equation.
   bool differentiated(int unknown) const { return differentiated_[at(unknown)] != 0; }
 
-  /// Index of an unknown; -1 if it is none.
-  int velocity_unknown(NodeId node) const { return iv_[at(node)]; }
-  int deflection_unknown(int branch) const { return ip_[at(branch)]; }
-  int force_unknown(int rate) const { return if_[at(rate)]; }
-  /// Unknown of a node whose distance from its parent (see Positions) is integrated.
-  int position_unknown(NodeId node) const { return ix_[at(node)]; }
-  const std::vector<NodeId>& integrated_positions() const { return positions_.integrated; }
-  /// That parent; ground if there is none.
-  NodeId integrated_beside(NodeId node) const { return ix_[at(node)] < 0 ? ground : positions_.of[at(node)].parent; }
-  /// Nodes whose position a view gives, except for known nodes.
-  const std::vector<NodeId>& positioned() const { return positions_.order; }
-  int block_unknown(std::size_t state) const { return iz_[state]; }
+  const UnknownIndices& indices() const { return index_; }
+  /// The positions that views give, except for known nodes, and those that are integrated.
+  const Positions& positions() const { return positions_; }
   /// Sets the unknown forces of dashpots to the values that belong to the velocities of y.
   void guess_forces(double t, double* y);
-  /// The node or element of the scene that an unknown belongs to.
-  struct Subject {
-    enum class Kind { node, element };
-    Kind kind;
-    int index;  ///< Into Scene::nodes or Scene::elements.
-    auto operator<=>(const Subject&) const = default;
-  };
-  Subject subject(int unknown) const;
-  /// Place of that node or element in the netlist.
-  const Spot& spot_of(int unknown) const;
-  /// For messages: "the velocity of node `m`", "the force of `k1`".
-  std::string describe(int unknown) const;
-  /// For messages: "`m`, `k1`", the elements around that node or element.
-  std::string around(int unknown) const;
-
   /// Slopes df/dp of all deflection branches at the state last viewed [N/m].
   const std::vector<double>& slopes();
 
@@ -164,24 +145,7 @@ class Dae {
   /// its law, and returns them.
   std::vector<int> release_parallel(int branch, double w);
 
-  /// Supplied and dissipated power [W] and stored energy [J] of the state last viewed. Laws that know their heat in closed form
-  /// do not count in the power: `heat_of_laws` is the sum of their heat since their memories changed last [J].
-  double supplied_power() const;
-  /// Whether powers depend on y': if velocities follow from rates of deflections, or laws dissipate by these rates.
-  bool power_needs_rates() const;
-  double dissipated_power() const;
-  double heat_of_laws() const;
-  double stored_energy() const;
-
   DeflectionBatch& batch_of(int branch, std::size_t& i) const { return network_->batch_of(branch, i); }
-  /// Force that a motion applies to its node [N] in the state last viewed.
-  double reaction(NodeId node) const;
-  /// Force of an inerter [N] in the state last viewed.
-  double inerter_force(std::size_t index) const;
-  /// Energy that an inerter stores [J], likewise.
-  double inerter_energy(std::size_t index) const;
-  /// Rate of the output of a block in the state last viewed, which depends on time, states, positions and velocities alone [unit/s].
-  double output_rate(int block) const;
   /// Output of a block in the state last viewed.
   double output(int block) const { return inputs_->blocks().out(block).value; }
   /// Limiters take the sides that fit this state: see BlockSignals::choose.
@@ -282,8 +246,6 @@ class Dae {
   void sum_forces();
   void balances(const double* yp, double* r) const;
   void evaluate_forces(double t, const double* y);
-  // loose_dashpots.cpp
-  void find_loose_dashpots();
   void balance_loose_dashpots();
   // state_evaluation.cpp
   void share_among_joined(double t);
@@ -303,8 +265,8 @@ class Dae {
   Positions positions_;
   int size_ = 0;
   bool idle_ = false, rough_ = false, follows_time_ = false, secants_ = false;
-  std::vector<int> iv_, ip_, if_, ix_, iz_;
-  int deflections_begin_ = 0, deflections_end_ = 0;  ///< The entries of ip_ are one after the other.
+  UnknownIndices index_;
+  int deflections_begin_ = 0, deflections_end_ = 0;  ///< The indices of deflections are one after the other.
   std::vector<Coupling> couplings_;
   std::vector<SlidingCoupling> sliding_couplings_;
   std::vector<ShareCoupling> share_couplings_;
@@ -359,11 +321,7 @@ class Dae {
   /// Arguments of view_; null if something else has been evaluated since.
   struct Viewed { double t = 0; const double *y = nullptr, *yp = nullptr; };
   Viewed viewed_;
-  /// A linear dashpot whose force is computed from the difference of two velocities, with a massless node at one end at least.
-  /// `a` and `b` are the indices of its ends in `loose_nodes_`; -1 for a mass or a prescribed motion.
-  struct Loose { std::size_t rate; int a, b; double damping; };
-  std::vector<Loose> loose_;
-  std::vector<NodeId> loose_nodes_;
+  LooseDashpots loose_dashpots_;
 };
 
 /// visit(entry, coefficient in dF/dy').

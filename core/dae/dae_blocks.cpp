@@ -11,18 +11,18 @@ using What = Blocks::Sensor::What;
 std::vector<Dae::AtomTerm> Dae::terms_of_atom(std::size_t atom) const {
   using By = Coupling::By;
   const BlockSignals& blocks = inputs_->blocks();
-  if (atom < blocks.states()) return {{iz_[atom], 1, By::itself, 0}};
+  if (atom < blocks.states()) return {{index_.block[atom], 1, By::itself, 0}};
   const Blocks::Sensor& sensor = network_->blocks.sensors[atom - blocks.states()];
   if (sensor.motion >= 0) return {};
-  if (sensor.what == What::position) return {{ix_[at(sensor.index)], 1, By::itself, 0}};
-  if (sensor.what == What::velocity) return {{iv_[at(structure_->rigid[at(sensor.index)])], 1, By::itself, 0}};
+  if (sensor.what == What::position) return {{index_.position[at(sensor.index)], 1, By::itself, 0}};
+  if (sensor.what == What::velocity) return {{index_.velocity[at(structure_->rigid[at(sensor.index)])], 1, By::itself, 0}};
   const Network::Place& place = network_->places[at(sensor.index)];
   const std::size_t branch = at(place.index);
-  if (place.role == Role::deflection) return {{ip_[branch], 1, By::slope, branch}};
+  if (place.role == Role::deflection) return {{index_.deflection[branch], 1, By::slope, branch}};
   if (place.role != Role::rate) return {};
-  if (if_[branch] >= 0) return {{if_[branch], 1, By::itself, 0}};
+  if (index_.force[branch] >= 0) return {{index_.force[branch], 1, By::itself, 0}};
   const Branch& b = structure_->rates[branch];
-  return {{iv_[at(b.a)], 1, By::damping, branch}, {iv_[at(b.b)], -1, By::damping, branch}};
+  return {{index_.velocity[at(b.a)], 1, By::damping, branch}, {index_.velocity[at(b.b)], -1, By::damping, branch}};
 }
 
 /// The entries of a row that takes in, times `factor`, the output of a block, or the rate of a state.
@@ -48,7 +48,7 @@ void Dae::couple(PatternBuilder& builder, int row, bool of_rate, std::size_t sou
 }
 
 void Dae::build_couplings(PatternBuilder& builder) {
-  for (std::size_t k = 0; k < iz_.size(); ++k) couple(builder, iz_[k], true, k, -1);
+  for (std::size_t k = 0; k < index_.block.size(); ++k) couple(builder, index_.block[k], true, k, -1);
   couple_motions(builder);
   couple_sliders(builder);
   for (const Network::Force& f : network_->forces) {
@@ -56,7 +56,7 @@ void Dae::build_couplings(PatternBuilder& builder) {
     for (const auto& [end, sign] : {std::pair{f.a, -f.sign}, std::pair{f.b, f.sign}}) {
       if (end < 0) continue;
       const NodeId node = structure_->rigid[at(end)];
-      couple(builder, iv_[at(node)], false, at(f.block), sign);
+      couple(builder, index_.velocity[at(node)], false, at(f.block), sign);
       couple(builder, balance_of_group(node), false, at(f.block), sign);
     }
   }
@@ -70,7 +70,7 @@ void Dae::couple_sliders(PatternBuilder& builder) {
     for (std::size_t i = 0; i < network_->sliders[k].varying.size(); ++i) {
       const auto [parameter, block, block_sign] = network_->sliders[k].varying[i];
       for (const auto& [end, sign] : {std::pair{b.a, block_sign}, std::pair{b.b, -block_sign}}) {
-        for (const int row : {iv_[at(end)], balance_of_group(end)}) {
+        for (const int row : {index_.velocity[at(end)], balance_of_group(end)}) {
           for (const Coupling& entry : entries_of(builder, row, false, at(block), sign)) sliding_couplings_.push_back({entry, k, i});
         }
       }
@@ -91,11 +91,11 @@ void Dae::couple_motions(PatternBuilder& builder) {
       const Network::Motion* m = mover(end);
       if (!m) continue;
       const double factor = sign * m->sign;
-      if (if_[r] >= 0) {
-        couple(builder, if_[r], false, at(m->block), factor);
+      if (index_.force[r] >= 0) {
+        couple(builder, index_.force[r], false, at(m->block), factor);
       } else {
-        couple(builder, iv_[at(b.a)], false, at(m->block), factor, Coupling::By::damping, r);
-        couple(builder, iv_[at(b.b)], false, at(m->block), -factor, Coupling::By::damping, r);
+        couple(builder, index_.velocity[at(b.a)], false, at(m->block), factor, Coupling::By::damping, r);
+        couple(builder, index_.velocity[at(b.b)], false, at(m->block), -factor, Coupling::By::damping, r);
       }
     }
   }
@@ -112,10 +112,10 @@ void Dae::move_by_blocks(const double* y) {
   const auto by_block = [](const Network::Motion& m) { return m.block >= 0; };
   if (std::none_of(network_->motions.begin(), network_->motions.end(), by_block)) return;
   BlockSignals& blocks = inputs_->blocks();
-  for (std::size_t k = 0; k < iz_.size(); ++k) blocks.state[k] = y[iz_[k]];
+  for (std::size_t k = 0; k < index_.block.size(); ++k) blocks.state[k] = y[index_.block[k]];
   for (std::size_t k = 0; k < blocks.sensed.size(); ++k) {
     const Blocks::Sensor& sensor = network_->blocks.sensors[k];
-    if (sensor.motion < 0 && sensor.what == What::position) blocks.sensed[k] = y[ix_[at(sensor.index)]];
+    if (sensor.motion < 0 && sensor.what == What::position) blocks.sensed[k] = y[index_.position[at(sensor.index)]];
   }
   blocks.run(true);
   inputs_->apply_blocks();
@@ -134,20 +134,6 @@ double Dae::acceleration_by(const Network::Motion& motion) const {
   return motion.sign * sum;
 }
 
-double Dae::output_rate(int block) const {
-  const BlockSignals& blocks = inputs_->blocks();
-  double sum = blocks.out(block).derivative;  // due to signals and prescribed motions, at held states and sensors
-  for (std::size_t k = 0; k < blocks.states(); ++k) sum += blocks.slope(block, k) * blocks.rate(k);
-  for (std::size_t k = 0; k < blocks.sensed.size(); ++k) {
-    const Blocks::Sensor& sensor = network_->blocks.sensors[k];
-    if (sensor.what == What::force || sensor.motion >= 0) continue;
-    sum += blocks.slope(block, blocks.states() + k) *
-           (sensor.what == What::position ? view_.velocity : view_.acceleration)[at(sensor.index)];
-  }
-  return sum;
-}
-
-/// Acceleration of a node whose motion is prescribed, by a function of time or by a block [m/s^2].
 double Dae::known_acceleration(NodeId node) const {
   const int m = structure_->motion[at(node)];
   return a_[at(node)] + (m >= 0 && network_->motions[at(m)].block >= 0 ? acceleration_by(network_->motions[at(m)]) : 0);
@@ -156,11 +142,11 @@ double Dae::known_acceleration(NodeId node) const {
 /// Evaluates the states and sensor values; then all outputs.
 void Dae::feel_blocks(const double* y) {
   BlockSignals& blocks = inputs_->blocks();
-  for (std::size_t k = 0; k < iz_.size(); ++k) blocks.state[k] = y[iz_[k]];
+  for (std::size_t k = 0; k < index_.block.size(); ++k) blocks.state[k] = y[index_.block[k]];
   for (std::size_t k = 0; k < blocks.sensed.size(); ++k) {
     const Blocks::Sensor& sensor = network_->blocks.sensors[k];
     if (sensor.motion >= 0) continue;
-    if (sensor.what == What::position) blocks.sensed[k] = y[ix_[at(sensor.index)]];
+    if (sensor.what == What::position) blocks.sensed[k] = y[index_.position[at(sensor.index)]];
     if (sensor.what == What::velocity) blocks.sensed[k] = v_[at(structure_->rigid[at(sensor.index)])];
     if (sensor.what != What::force) continue;
     const Network::Place& place = network_->places[at(sensor.index)];
@@ -172,7 +158,7 @@ void Dae::feel_blocks(const double* y) {
       std::size_t i = 0;
       const RateBatch& law = network_->rate_of(place.index, i);
       const double in = rate_in_[at(place.index)];
-      blocks.sensed[k] = if_[at(place.index)] >= 0 ? in : law.force_at(i, in);
+      blocks.sensed[k] = index_.force[at(place.index)] >= 0 ? in : law.force_at(i, in);
     }
   }
   inputs_->look_back();

@@ -13,20 +13,20 @@ namespace rheonet {
 
 void Dae::number_unknowns() {
   const Network& network = *network_;
-  iv_.assign(network.nodes(), -1);
-  ix_ = iv_;
-  ip_.assign(network.deflections.size(), -1);
-  if_.assign(network.rates.size(), -1);
+  index_.velocity.assign(network.nodes(), -1);
+  index_.position = index_.velocity;
+  index_.deflection.assign(network.deflections.size(), -1);
+  index_.force.assign(network.rates.size(), -1);
   // Related unknowns are adjacent: this keeps the columns of a chain close to each other.
   for (NodeId node : network.node_order) {
     const int group = structure_->group[at(node)];
     const bool reference = group >= 0 && structure_->groups[at(group)].nodes.front() == node;
     const Kind kind = structure_->kind[at(node)];
-    if (kind != Kind::known && kind != Kind::joined && !reference) iv_[at(node)] = size_++;
+    if (kind != Kind::known && kind != Kind::joined && !reference) index_.velocity[at(node)] = size_++;
   }
   deflections_begin_ = size_;
-  for (std::size_t j = 0; j < ip_.size(); ++j) {
-    if (!structure_->driven[j]) ip_[j] = size_++;
+  for (std::size_t j = 0; j < index_.deflection.size(); ++j) {
+    if (!structure_->driven[j]) index_.deflection[j] = size_++;
   }
   deflections_end_ = size_;
   const auto known = [&](NodeId node) { return structure_->kind[at(node)] == Kind::known; };
@@ -75,7 +75,7 @@ void Dae::number_unknowns() {
       const bool stiff_between = moving && least_mass > 0 && impulse * length > numerics::equalising_ratio * least_mass;
       const bool by_force = linear ? stiff(b.a) || stiff(b.b) || stiff_between || alone_moving : power_law && needed && at_massless;
       by_force_.push_back(by_force && b.a != b.b);
-      if (by_force_.back()) if_[at(laws.first) + i] = size_++;
+      if (by_force_.back()) index_.force[at(laws.first) + i] = size_++;
     }
   }
 }
@@ -83,7 +83,7 @@ void Dae::number_unknowns() {
 bool Dae::any_follows_time() const {
   const auto moves = [&](NodeId node) { return structure_->motion[at(node)] >= 0; };
   // Its velocity is an unknown that no equation differentiates.
-  const auto at_once = [&](NodeId node) { return iv_[at(node)] >= 0 && structure_->kind[at(node)] != Kind::massive; };
+  const auto at_once = [&](NodeId node) { return index_.velocity[at(node)] >= 0 && structure_->kind[at(node)] != Kind::massive; };
   const auto pulled = [&](const Branch& b) { return (moves(b.a) && at_once(b.b)) || (moves(b.b) && at_once(b.a)); };
   const auto pushed = [&](const Network::Force& f) {
     return at_once(structure_->rigid[at(f.a)]) || (f.b >= 0 && at_once(structure_->rigid[at(f.b)]));

@@ -22,7 +22,7 @@ void Dae::gather(double t, const double* y) {
   viewed_ = {};
   inputs_->evaluate(t);
   for (std::size_t n = 0; n < v_.size(); ++n) {
-    if (iv_[n] >= 0) v_[n] = y[iv_[n]];
+    if (index_.velocity[n] >= 0) v_[n] = y[index_.velocity[n]];
   }
   move_by_blocks(y);
   for (std::size_t m = 0; m < network_->motions.size(); ++m) {
@@ -30,13 +30,13 @@ void Dae::gather(double t, const double* y) {
     v_[node] = inputs_->velocity[m];
     a_[node] = inputs_->acceleration[m];
   }
-  for (std::size_t j = 0; j < ip_.size(); ++j) {
+  for (std::size_t j = 0; j < index_.deflection.size(); ++j) {
     const Branch& b = structure_->deflections[j];
-    view_.p[j] = ip_[j] >= 0 ? y[ip_[j]] : driven_from_[j] + known_way(b, t);
+    view_.p[j] = index_.deflection[j] >= 0 ? y[index_.deflection[j]] : driven_from_[j] + known_way(b, t);
   }
-  for (std::size_t r = 0; r < if_.size(); ++r) {
+  for (std::size_t r = 0; r < index_.force.size(); ++r) {
     const Branch& b = structure_->rates[r];
-    rate_in_[r] = if_[r] >= 0 ? y[if_[r]] : v_[at(b.a)] - v_[at(b.b)];
+    rate_in_[r] = index_.force[r] >= 0 ? y[index_.force[r]] : v_[at(b.a)] - v_[at(b.b)];
   }
   if (inputs_->blocks().any()) feel_blocks(y);
   for (const std::size_t k : varying_) slip_force_[k] = slip_side_[k] * inputs_->box(k).at(slip_side_[k]).sliding.value;
@@ -52,8 +52,8 @@ void Dae::sum_forces() {
     view_.nodal[at(b.a)] += f;
     view_.nodal[at(b.b)] -= f;
   };
-  for (std::size_t j = 0; j < ip_.size(); ++j) add(structure_->deflections[j], view_.f[j]);
-  for (std::size_t r = 0; r < if_.size(); ++r) add(structure_->rates[r], if_[r] >= 0 ? rate_in_[r] : rate_out_[r]);
+  for (std::size_t j = 0; j < index_.deflection.size(); ++j) add(structure_->deflections[j], view_.f[j]);
+  for (std::size_t r = 0; r < index_.force.size(); ++r) add(structure_->rates[r], index_.force[r] >= 0 ? rate_in_[r] : rate_out_[r]);
   for (std::size_t k = 0; k < slip_force_.size(); ++k) {
     if (slip_force_[k] != 0) add(structure_->sliders[k], slip_force_[k]);
   }
@@ -81,7 +81,7 @@ double Dae::sum_of(const Terms& terms, const double* yp) const {
   double sum = 0;
   for (int k = terms.flow_begin; k < terms.flow_end; ++k) {
     const auto [j, sign] = flows_[at(k)];
-    sum += sign * moving_[at(j)] * (yp[ip_[at(j)]] + view_.creep[at(j)]);
+    sum += sign * moving_[at(j)] * (yp[index_.deflection[at(j)]] + view_.creep[at(j)]);
   }
   for (int k = terms.velocity_begin; k < terms.velocity_end; ++k) {
     sum += velocities_[at(k)].sign * v_[at(velocities_[at(k)].index)];
@@ -91,16 +91,16 @@ double Dae::sum_of(const Terms& terms, const double* yp) const {
 
 /// The balance of forces in the row of each velocity.
 void Dae::balances(const double* yp, double* r) const {
-  for (std::size_t n = 0; n < iv_.size(); ++n) {
-    if (iv_[n] >= 0) r[iv_[n]] = view_.nodal[n] - view_.applied[n] + structure_->mass[n] * yp[iv_[n]];
+  for (std::size_t n = 0; n < index_.velocity.size(); ++n) {
+    if (index_.velocity[n] >= 0) r[index_.velocity[n]] = view_.nodal[n] - view_.applied[n] + structure_->mass[n] * yp[index_.velocity[n]];
   }
   for (std::size_t k = 0; k < structure_->inerters.size(); ++k) {
     const Branch& b = structure_->inerters[k];
     if (b.a == b.b) continue;
-    const auto acceleration = [&](NodeId node) { return iv_[at(node)] >= 0 ? yp[iv_[at(node)]] : known_acceleration(node); };
+    const auto acceleration = [&](NodeId node) { return index_.velocity[at(node)] >= 0 ? yp[index_.velocity[at(node)]] : known_acceleration(node); };
     const double f = network_->inerters[k].inertance * (acceleration(b.a) - acceleration(b.b));
-    if (iv_[at(b.a)] >= 0) r[iv_[at(b.a)]] += f;
-    if (iv_[at(b.b)] >= 0) r[iv_[at(b.b)]] -= f;
+    if (index_.velocity[at(b.a)] >= 0) r[index_.velocity[at(b.a)]] += f;
+    if (index_.velocity[at(b.b)] >= 0) r[index_.velocity[at(b.b)]] -= f;
   }
 }
 
@@ -114,9 +114,9 @@ void Dae::residual(double t, const double* y, const double* yp, double* r) {
     for (NodeId node : structure_->groups[g].nodes) sum += view_.nodal[at(node)] - view_.applied[at(node)];
     if (group_row_[g] >= 0) r[group_row_[g]] = sum;
   }
-  for (std::size_t k = 0; k < if_.size(); ++k) {
+  for (std::size_t k = 0; k < index_.force.size(); ++k) {
     const Branch& b = structure_->rates[k];
-    if (if_[k] >= 0) r[if_[k]] = v_[at(b.a)] - v_[at(b.b)] - rate_out_[k];
+    if (index_.force[k] >= 0) r[index_.force[k]] = v_[at(b.a)] - v_[at(b.b)] - rate_out_[k];
   }
   for (const Row& row : rows_) {
     r[row.row] = sum_of(row.terms, yp);
@@ -125,23 +125,23 @@ void Dae::residual(double t, const double* y, const double* yp, double* r) {
     const double now = inputs_->felt_now[at(row.delayed)];
     r[row.row] += (now == 0 ? 0 : now * sum_of(felt_terms_[at(row.delayed)], yp)) - inputs_->felt[at(row.delayed)];
   }
-  for (std::size_t k = 0; k < iz_.size(); ++k) r[iz_[k]] = yp[iz_[k]] - inputs_->blocks().rate(k);
+  for (std::size_t k = 0; k < index_.block.size(); ++k) r[index_.block[k]] = yp[index_.block[k]] - inputs_->blocks().rate(k);
   for (const Structure::Tied& tied : equations_) {
-    double& row = r[iv_[at(tied.pivot)]];
+    double& row = r[index_.velocity[at(tied.pivot)]];
     double sum = v_[at(tied.pivot)];
     for (const auto& [node, factor] : tied.terms) sum += factor * v_[at(node)];
-    for (const auto& [node, share] : tied.shares) r[iv_[at(node)]] -= share * row;
+    for (const auto& [node, share] : tied.shares) r[index_.velocity[at(node)]] -= share * row;
     row = sum;
   }
   for (const Follower& f : followers_) {
-    if (f.active) r[f.row] = share(f, yp[ip_[at(f.branch)]], yp[ip_[at(f.leader)]]).difference;
+    if (f.active) r[f.row] = share(f, yp[index_.deflection[at(f.branch)]], yp[index_.deflection[at(f.leader)]]).difference;
   }
 }
 
 void Dae::magnitudes(double* r) const {
   std::fill(r, r + size_, 0.0);
   const auto add = [&](NodeId node, double x) {
-    for (int row : {iv_[at(node)], balance_of_group(node)}) {
+    for (int row : {index_.velocity[at(node)], balance_of_group(node)}) {
       if (row >= 0) r[row] += std::abs(x);
     }
   };
@@ -151,16 +151,16 @@ void Dae::magnitudes(double* r) const {
     add(b.a, f);
     add(b.b, f);
   };
-  for (std::size_t j = 0; j < ip_.size(); ++j) {
+  for (std::size_t j = 0; j < index_.deflection.size(); ++j) {
     // Friction that has slid far and reversed has a small force at a large deflection.
     add_branch(structure_->deflections[j], std::max(std::abs(view_.f[j]), numerics::deflection_force_share * std::abs(df_[j] * view_.p[j])));
   }
-  for (std::size_t k = 0; k < if_.size(); ++k) {
+  for (std::size_t k = 0; k < index_.force.size(); ++k) {
     const Branch& b = structure_->rates[k];
     // The difference of two velocities has the round-off of each.
     const double speed = std::abs(v_[at(b.a)]) + std::abs(v_[at(b.b)]);
-    add_branch(b, if_[k] >= 0 ? rate_in_[k] : std::abs(rate_out_[k]) + rate_d_[k] * speed);
-    if (if_[k] >= 0) r[if_[k]] = std::abs(v_[at(b.a)]) + std::abs(v_[at(b.b)]) + std::abs(rate_out_[k]);
+    add_branch(b, index_.force[k] >= 0 ? rate_in_[k] : std::abs(rate_out_[k]) + rate_d_[k] * speed);
+    if (index_.force[k] >= 0) r[index_.force[k]] = std::abs(v_[at(b.a)]) + std::abs(v_[at(b.b)]) + std::abs(rate_out_[k]);
   }
   for (std::size_t k = 0; k < slip_force_.size(); ++k) add_branch(structure_->sliders[k], slip_force_[k]);
   for (std::size_t k = 0; k < network_->forces.size(); ++k) {
@@ -173,16 +173,16 @@ void Dae::magnitudes(double* r) const {
   for (const Laws<RateBatch>& laws : network_->rate_laws) {
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {
       const std::size_t k = at(laws.first) + i;
-      if (if_[k] < 0) continue;
+      if (index_.force[k] < 0) continue;
       const Branch& b = structure_->rates[k];
       double forces = 0;
       for (const NodeId n : {b.a, b.b}) {
-        for (int row : {iv_[at(n)], balance_of_group(n)}) {
+        for (int row : {index_.velocity[at(n)], balance_of_group(n)}) {
           if (row >= 0) forces = std::max(forces, r[row]);
         }
       }
       const double f = std::abs(rate_in_[k]), lost = numerics::equation_roundoff * forces;
-      r[if_[k]] += (laws.batch->velocity_at(i, f + lost) - laws.batch->velocity_at(i, f)) / numerics::equation_roundoff;
+      r[index_.force[k]] += (laws.batch->velocity_at(i, f + lost) - laws.batch->velocity_at(i, f)) / numerics::equation_roundoff;
     }
   }
   for (const Row& row : rows_) {
@@ -191,7 +191,7 @@ void Dae::magnitudes(double* r) const {
     }
   }
   for (const Structure::Tied& tied : structure_->tied) {
-    double& row = r[iv_[at(tied.pivot)]];
+    double& row = r[index_.velocity[at(tied.pivot)]];
     row = std::abs(v_[at(tied.pivot)]);
     for (const auto& [node, factor] : tied.terms) row += std::abs(factor * v_[at(node)]);
   }
@@ -228,7 +228,7 @@ void Dae::stiffen_resting_laws() {
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {
       const std::size_t r = at(laws.first) + i;
       if (secants_ && rate_in_[r] != 0) rate_d_[r] = std::max(rate_d_[r], rate_out_[r] / rate_in_[r]);
-      if (any_held && if_[r] >= 0 && rate_in_[r] != 0) {
+      if (any_held && index_.force[r] >= 0 && rate_in_[r] != 0) {
         const double lost = numerics::equation_roundoff * held_force(structure_->rates[r]);
         if (std::abs(rate_in_[r]) < lost) rate_d_[r] = std::max(rate_d_[r], laws.batch->velocity_at(i, lost) / lost);
       }
@@ -244,7 +244,7 @@ void Dae::stiffen_resting_laws() {
         reach = coming_reach(*inputs_, v_);
       }
       const double f = scale > 0 ? scale : coming_force(*laws.batch, i, reach), w = laws.batch->velocity_at(i, f);
-      rate_d_[r] = if_[r] >= 0 ? w / f : f / w;
+      rate_d_[r] = index_.force[r] >= 0 ? w / f : f / w;
     }
   }
 }
@@ -265,7 +265,7 @@ void Dae::guess_forces(double t, double* y) {
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {
       const std::size_t r = at(laws.first) + i;
       const Branch& b = structure_->rates[r];
-      if (if_[r] >= 0) y[if_[r]] = laws.batch->force_at(i, v_[at(b.a)] - v_[at(b.b)]);
+      if (index_.force[r] >= 0) y[index_.force[r]] = laws.batch->force_at(i, v_[at(b.a)] - v_[at(b.b)]);
     }
   }
 }
@@ -284,14 +284,14 @@ void Dae::time_derivative(double* r) const {
   const auto add = [&](NodeId node, double x) {
     if (node < 0) return;
     node = structure_->rigid[at(node)];
-    if (iv_[at(node)] >= 0 && !differential_[at(iv_[at(node)])]) r[iv_[at(node)]] += x;
+    if (index_.velocity[at(node)] >= 0 && !differential_[at(index_.velocity[at(node)])]) r[index_.velocity[at(node)]] += x;
     if (const int row = balance_of_group(node); row >= 0) r[row] += x;
   };
-  for (std::size_t k = 0; k < if_.size(); ++k) {
+  for (std::size_t k = 0; k < index_.force.size(); ++k) {
     const Branch& b = structure_->rates[k];
     const double dw = a_[at(b.a)] - a_[at(b.b)];
-    if (if_[k] >= 0) {
-      r[if_[k]] += dw;
+    if (index_.force[k] >= 0) {
+      r[index_.force[k]] += dw;
     } else if (dw != 0) {
       add(b.a, rate_d_[k] * dw);
       add(b.b, -rate_d_[k] * dw);
@@ -313,7 +313,7 @@ void Dae::time_derivative(double* r) const {
     add(network_->forces[k].b, inputs_->force_rate[k]);
   }
   for (const Structure::Tied& tied : structure_->tied) {
-    double& row = r[iv_[at(tied.pivot)]];
+    double& row = r[index_.velocity[at(tied.pivot)]];
     row = 0;
     for (const auto& [node, factor] : tied.terms) row += factor * a_[at(node)];
   }

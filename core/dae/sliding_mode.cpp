@@ -8,14 +8,14 @@ namespace rheonet {
 
 void Dae::find_parallels() {
   std::map<std::pair<NodeId, NodeId>, std::vector<int>> by_ends;
-  for (std::size_t j = 0; j < ip_.size(); ++j) {
+  for (std::size_t j = 0; j < index_.deflection.size(); ++j) {
     const Branch& b = structure_->deflections[j];
     std::size_t i = 0;
-    if (ip_[j] >= 0 && b.a != b.b && batch_of(static_cast<int>(j), i).can_hold(i)) {
+    if (index_.deflection[j] >= 0 && b.a != b.b && batch_of(static_cast<int>(j), i).can_hold(i)) {
       by_ends[std::minmax(b.a, b.b)].push_back(static_cast<int>(j));
     }
   }
-  std::vector<char> in_tree(ip_.size(), 0);
+  std::vector<char> in_tree(index_.deflection.size(), 0);
   for (const Structure::Group& g : structure_->groups) {
     if (g.tree_branch >= 0) in_tree[at(g.tree_branch)] = 1;
   }
@@ -25,7 +25,7 @@ void Dae::find_parallels() {
     const auto leader = std::find_if(branches.begin(), branches.end(), [&](int j) { return in_tree[at(j)] != 0; });
     if (leader != branches.end()) std::iter_swap(branches.begin(), leader);
     for (std::size_t k = 1; k < branches.size(); ++k) {
-      followers_.push_back({branches[k], branches.front(), ip_[at(branches[k])], branches.size() == 2, -1, -1, {}, false});
+      followers_.push_back({branches[k], branches.front(), index_.deflection[at(branches[k])], branches.size() == 2, -1, -1, {}, false});
     }
     parallels_.push_back({branches});
   }
@@ -134,7 +134,7 @@ Dae::Shared Dae::share(const Follower& follower, double own_rate, double leader_
 void Dae::share_jacobian(double cj, const double* yp, double* values, bool consistency) const {
   for (const Follower& f : followers_) {
     if (!f.active) continue;
-    const auto rate = [&](int branch) { return yp ? yp[ip_[at(branch)]] : 0; };
+    const auto rate = [&](int branch) { return yp ? yp[index_.deflection[at(branch)]] : 0; };
     const Shared s = share(f, rate(f.branch), rate(f.leader));
     for (int e : f.row_entries) values[e] = 0;
     values[f.own_entry] = consistency ? s.by_own_rate : s.by_own + cj * s.by_own_rate;

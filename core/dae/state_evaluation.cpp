@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "core/dae/dae.hpp"
+#include "core/dae/state_powers.hpp"
 
 namespace rheonet {
 
@@ -13,8 +14,8 @@ void Dae::share_among_joined(double t) {
     view_.nodal[at(b.a)] += f;
     view_.nodal[at(b.b)] -= f;
   };
-  for (std::size_t j = 0; j < ip_.size(); ++j) add(network_->deflections[j], view_.f[j]);
-  for (std::size_t r = 0; r < if_.size(); ++r) add(network_->rates[r], if_[r] >= 0 ? rate_in_[r] : rate_out_[r]);
+  for (std::size_t j = 0; j < index_.deflection.size(); ++j) add(network_->deflections[j], view_.f[j]);
+  for (std::size_t r = 0; r < index_.force.size(); ++r) add(network_->rates[r], index_.force[r] >= 0 ? rate_in_[r] : rate_out_[r]);
   for (std::size_t k = 0; k < slip_force_.size(); ++k) {
     if (slip_force_[k] != 0) add(network_->sliders[k].branch, slip_force_[k]);
   }
@@ -29,8 +30,8 @@ void Dae::share_among_joined(double t) {
   }
   for (std::size_t k = 0; k < network_->inerters.size(); ++k) {
     const Branch& b = network_->inerters[k].branch;
-    left[at(b.a)] += inerter_force(k);
-    left[at(b.b)] -= inerter_force(k);
+    left[at(b.a)] += StatePowers(*this).inerter_force(k);
+    left[at(b.b)] -= StatePowers(*this).inerter_force(k);
   }
   for (std::size_t k = 0; k < network_->trains.size(); ++k) {
     const Network::Train& train = network_->trains[k];
@@ -44,7 +45,7 @@ void Dae::share_among_joined(double t) {
 
 const Dae::View& Dae::view(double t, const double* y, const double* yp) {
   evaluate_forces(t, y);
-  if (!loose_.empty()) balance_loose_dashpots();
+  if (!loose_dashpots_.none()) balance_loose_dashpots();
   view_velocities(yp);
   for (std::size_t n = 0; n < v_.size(); ++n) {
     view_.acceleration[n] = a_[n];
@@ -78,9 +79,9 @@ const Dae::View& Dae::view(double t, const double* y, const double* yp) {
     view_.slider_force[k] = slip_force_[k];
     if (const int train = network_->sliders[k].train; train >= 0) view_.slider_force[k] = loss_lines_[at(train)].at(view_.train_force[at(train)]) - view_.train_force[at(train)];
   }
-  for (std::size_t r = 0; r < if_.size(); ++r) {
-    view_.rate_velocity[r] = if_[r] >= 0 ? rate_out_[r] : rate_in_[r];
-    view_.rate_force[r] = if_[r] >= 0 ? rate_in_[r] : rate_out_[r];
+  for (std::size_t r = 0; r < index_.force.size(); ++r) {
+    view_.rate_velocity[r] = index_.force[r] >= 0 ? rate_out_[r] : rate_in_[r];
+    view_.rate_force[r] = index_.force[r] >= 0 ? rate_in_[r] : rate_out_[r];
   }
   for (std::size_t m = 0; m < network_->motions.size(); ++m) {
     if (network_->motions[m].block < 0) view_.position[at(network_->motions[m].node)] = inputs_->position[m];
@@ -90,7 +91,7 @@ const Dae::View& Dae::view(double t, const double* y, const double* yp) {
     double& position = view_.position[at(node)];
     const double parent = view_.position[at(x.parent)];
     if (x.integrated) {
-      position = parent + y[ix_[at(node)]];
+      position = parent + y[index_.position[at(node)]];
     } else if (x.branch >= 0) {
       position = parent + x.sign * (view_.p[at(x.branch)] + offset_[at(x.branch)]);
     } else if (x.slider >= 0) {
@@ -109,7 +110,7 @@ const Dae::View& Dae::view(double t, const double* y, const double* yp) {
 
 void Dae::view_velocities(const double* yp) {
   view_.velocity = v_;
-  const auto flow = [&](int j) { return moving_[at(j)] * (yp[ip_[at(j)]] + view_.creep[at(j)]); };
+  const auto flow = [&](int j) { return moving_[at(j)] * (yp[index_.deflection[at(j)]] + view_.creep[at(j)]); };
   for (const Structure::Group& group : structure_->groups) {
     double base = 0;
     if (group.tie >= 0) {
@@ -121,12 +122,12 @@ void Dae::view_velocities(const double* yp) {
     }
     for (NodeId node : group.nodes) view_.velocity[at(node)] = base + v_[at(node)];
   }
-  for (std::size_t j = 0; j < ip_.size(); ++j) {
+  for (std::size_t j = 0; j < index_.deflection.size(); ++j) {
     const Branch& b = structure_->deflections[j];
     const bool floating = structure_->group[at(b.a)] >= 0 || structure_->group[at(b.b)] >= 0;
     // The difference of two velocities loses digits where both move fast; the deflection's own rate does not.
     view_.flow[j] = b.a == b.b ? 0 : floating ? flow(static_cast<int>(j)) : v_[at(b.a)] - v_[at(b.b)];
-    view_.dp[j] = ip_[j] >= 0 ? yp[ip_[j]] : view_.flow[j];
+    view_.dp[j] = index_.deflection[j] >= 0 ? yp[index_.deflection[j]] : view_.flow[j];
   }
   for (const DelayHistory::Delayed& d : inputs_->history().delayed()) {
     const Branch& b = structure_->deflections[at(d.branch)];
@@ -170,99 +171,18 @@ const std::vector<double>& Dae::slopes() {
   return df_;
 }
 
-double Dae::reaction(NodeId node) const {
-  double force = view_.nodal[at(node)] - view_.applied[at(node)] + structure_->own_mass[at(node)] * view_.acceleration[at(node)];
-  for (std::size_t k = 0; k < network_->inerters.size(); ++k) {
-    const Branch& b = network_->inerters[k].branch;
-    if (b.a == node) force += inerter_force(k);
-    if (b.b == node) force -= inerter_force(k);
-  }
-  for (std::size_t k = 0; k < network_->trains.size(); ++k) {
-    const Network::Train& train = network_->trains[k];
-    for (std::size_t i = 0; i < train.node.size(); ++i) {
-      if (train.node[i] == node) force += train_forces_[k][i] * view_.train_force[k];
-    }
-  }
-  return force;
-}
-
-double Dae::inerter_force(std::size_t k) const {
-  const auto& [branch, inertance] = network_->inerters[k];
-  return inertance * (view_.acceleration[at(branch.a)] - view_.acceleration[at(branch.b)]);
-}
-
-double Dae::inerter_energy(std::size_t k) const {
-  const auto& [branch, inertance] = network_->inerters[k];
-  const double w = view_.velocity[at(branch.a)] - view_.velocity[at(branch.b)];
-  return inertance * w * w / 2;
-}
-
-double Dae::supplied_power() const {
-  double power = 0;
-  for (const Network::Motion& m : network_->motions) power += reaction(m.node) * view_.velocity[at(m.node)];
-  for (std::size_t k = 0; k < network_->forces.size(); ++k) {
-    const Network::Force& f = network_->forces[k];
-    // A signal that changes the stiffness of a spring supplies energy too: the gain beyond the work done at its ends.
-    if (f.lossless()) power += output_rate(f.energy);
-    if (f.resists && !f.lossless()) continue;
-    power += inputs_->force[k] * (view_.velocity[at(f.a)] - (f.b >= 0 ? view_.velocity[at(f.b)] : 0));
-  }
-  return power;
-}
-
-bool Dae::power_needs_rates() const {
-  return !structure_->groups.empty() ||
-         std::any_of(network_->deflection_laws.begin(), network_->deflection_laws.end(),
-                     [](const Laws<DeflectionBatch>& laws) { return !laws.batch->knows_heat(); });
-}
-
-double Dae::dissipated_power() const {
-  double power = 0;
-  for (const Laws<DeflectionBatch>& laws : network_->deflection_laws) {
-    if (laws.batch->knows_heat()) continue;
-    for (std::size_t i = 0; i < laws.batch->size(); ++i) {
-      const std::size_t j = at(laws.first) + i;
-      power += laws.batch->dissipated_power(i, view_.p[j], view_.dp[j], view_.flow[j]);
-    }
-  }
-  for (std::size_t r = 0; r < if_.size(); ++r) power += view_.rate_force[r] * view_.rate_velocity[r];
-  for (std::size_t k = 0; k < slip_force_.size(); ++k) power += view_.slider_force[k] * view_.slider_velocity[k];
-  // All power that such a force takes from the motion counts as heat here; `heat_of_laws` subtracts the part that it stores.
-  for (std::size_t k = 0; k < network_->forces.size(); ++k) {
-    const Network::Force& f = network_->forces[k];
-    if (f.resists && !f.lossless()) power -= inputs_->force[k] * (view_.velocity[at(f.a)] - (f.b >= 0 ? view_.velocity[at(f.b)] : 0));
-  }
-  return power;
-}
-
-double Dae::heat_of_laws() const {
-  double heat = 0;
-  for (const Laws<DeflectionBatch>& laws : network_->deflection_laws) {
-    for (std::size_t i = 0; laws.batch->knows_heat() && i < laws.batch->size(); ++i) {
-      heat += laws.batch->heat(i, view_.p[at(laws.first) + i]);
-    }
-  }
-  for (const Network::Force& f : network_->forces) {
-    if (f.energy >= 0 && !f.lossless()) heat -= output(f.energy);
-  }
-  return heat;
-}
-
-double Dae::stored_energy() const {
-  double energy = 0;
-  for (const Laws<DeflectionBatch>& laws : network_->deflection_laws) {
-    for (std::size_t i = 0; i < laws.batch->size(); ++i) {
-      energy += laws.batch->stored_energy(i, view_.p[at(laws.first) + i]);
-    }
-  }
-  for (std::size_t n = 0; n < v_.size(); ++n) {
-    energy += structure_->own_mass[n] * view_.velocity[n] * view_.velocity[n] / 2;
-  }
-  for (std::size_t k = 0; k < network_->inerters.size(); ++k) energy += inerter_energy(k);
-  for (const Network::Force& f : network_->forces) {
-    if (f.energy >= 0) energy += output(f.energy);
-  }
-  return energy;
+void Dae::balance_loose_dashpots() {
+  std::vector<double>& magnitude = work_;
+  std::fill(magnitude.begin(), magnitude.end(), 0.0);
+  const auto add = [&](const Branch& b, double f) {
+    if (b.a == b.b) return;
+    magnitude[at(b.a)] += std::abs(f);
+    magnitude[at(b.b)] += std::abs(f);
+  };
+  for (std::size_t j = 0; j < view_.f.size(); ++j) add(structure_->deflections[j], view_.f[j]);
+  for (std::size_t r = 0; r < rate_in_.size(); ++r) add(structure_->rates[r], index_.force[r] >= 0 ? rate_in_[r] : rate_out_[r]);
+  for (std::size_t k = 0; k < slip_force_.size(); ++k) add(structure_->sliders[k], slip_force_[k]);
+  loose_dashpots_.balance({magnitude, view_.applied, v_}, rate_out_, view_.nodal);
 }
 
 }  // namespace rheonet

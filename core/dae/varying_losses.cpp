@@ -30,7 +30,7 @@ void Dae::couple_shares(PatternBuilder& builder) {
       const auto block = at(network_->sliders[k].varying[i].block);
       for (std::size_t r = 0; r < equations_.size(); ++r) {
         for (std::size_t s = 0; s < equations_[r].shares.size(); ++s) {
-          for (const Coupling& entry : entries_of(builder, iv_[at(equations_[r].shares[s].node)], false, block, 1)) {
+          for (const Coupling& entry : entries_of(builder, index_.velocity[at(equations_[r].shares[s].node)], false, block, 1)) {
             share_couplings_.push_back({entry, k, i, static_cast<Eigen::Index>(s), static_cast<Eigen::Index>(r)});
           }
         }
@@ -58,7 +58,7 @@ void Dae::shares_jacobian(const double* yp, double* values) {
       rate = train_shares_->rate(rates);
       last = &c;
     }
-    values[c.coupling.entry] -= balance[at(iv_[at(equations_[static_cast<std::size_t>(c.pivot)].pivot)])] * rate(c.share, c.pivot) * slope(c.coupling);
+    values[c.coupling.entry] -= balance[at(index_.velocity[at(equations_[static_cast<std::size_t>(c.pivot)].pivot)])] * rate(c.share, c.pivot) * slope(c.coupling);
   }
 }
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "core/base/index.hpp"
+#include "core/dae/state_powers.hpp"
 #include "core/result/output_sampler.hpp"
 #include "core/result/pair_view.hpp"
 
@@ -44,11 +45,11 @@ double OutputSampler::element_force(int element, const Dae::View& view) const {
       return m.mass * view.acceleration[at(m.node)];
     }
     case Role::inerter:
-      return dae_->inerter_force(at(place.index));
+      return StatePowers(*dae_).inerter_force(at(place.index));
     case Role::train:
       return view.train_force[at(place.index)] + loss_force(place.index, view);
     case Role::motion:
-      return dae_->reaction(network.motions[at(place.index)].node);
+      return StatePowers(*dae_).reaction(network.motions[at(place.index)].node);
     case Role::force:
       return (network.forces[at(place.index)].resists ? -1 : 1) * dae_->applied_force(place.index);
     case Role::block:
@@ -84,7 +85,7 @@ double OutputSampler::dissipated_power(int element, const Dae::View& view) const
   if (place.role == Role::force && network_.forces[at(place.index)].resists) {
     if (network_.forces[at(place.index)].lossless()) return 0;
     const int energy = network_.forces[at(place.index)].energy;
-    return element_force(element, view) * element_velocity(element, view) - (energy < 0 ? 0 : dae_->output_rate(energy));
+    return element_force(element, view) * element_velocity(element, view) - (energy < 0 ? 0 : StatePowers(*dae_).output_rate(energy));
   }
   if (!place.paired && place.role == Role::train) {
     const int friction = network_.trains[at(place.index)].friction;
@@ -108,7 +109,7 @@ double OutputSampler::stored_energy(int element, const Dae::View& view) const {
     return batch.stored_energy(i, view.p[at(place.index)]);
   }
   if (place.role == Role::force && network_.forces[at(place.index)].energy >= 0) return dae_->output(network_.forces[at(place.index)].energy);
-  if (place.role == Role::inerter) return dae_->inerter_energy(at(place.index));
+  if (place.role == Role::inerter) return StatePowers(*dae_).inerter_energy(at(place.index));
   if (place.role != Role::mass) return 0;
   const Network::Mass& m = network_.masses[at(place.index)];
   return m.mass * view.velocity[at(m.node)] * view.velocity[at(m.node)] / 2;

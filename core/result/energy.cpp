@@ -6,6 +6,7 @@
 #include "core/base/index.hpp"
 #include "core/base/numerics.hpp"
 #include "core/base/roundoff.hpp"
+#include "core/dae/state_powers.hpp"
 
 namespace rheonet {
 
@@ -14,7 +15,7 @@ EnergyAccount::EnergyAccount(double tolerance, double length) : tolerance_(toler
 void EnergyAccount::attach(Dae& dae, Consistency& consistency) {
   dae_ = &dae;
   consistency_ = &consistency;
-  needs_rates_ = dae.power_needs_rates();
+  needs_rates_ = StatePowers::need_rates(dae);
   const Network& network = dae.network();
   const Structure& structure = dae.structure();
   // Nodes stuck to ground are known too, but at rest: nothing happens at them.
@@ -37,11 +38,11 @@ void EnergyAccount::attach(Dae& dae, Consistency& consistency) {
 
 void EnergyAccount::begin(double t, const std::vector<double>& y, const std::vector<double>& yp, double heat) {
   dae_->view(t, y.data(), yp.data());
-  last_ = {dae_->supplied_power(), dae_->dissipated_power()};
+  last_ = {StatePowers(*dae_).supplied(), StatePowers(*dae_).dissipated()};
   known_ = 0;
   remember(t, last_);
-  heat_ = dae_->heat_of_laws();
-  const double stored = dae_->stored_energy();
+  heat_ = StatePowers(*dae_).heat_of_laws();
+  const double stored = StatePowers(*dae_).stored();
   if (!begun_) {
     stored_at_start_ = stored;
     begun_ = true;
@@ -59,7 +60,7 @@ bool EnergyAccount::solved_between_steps() const { return dae_->rough() || dae_-
 EnergyAccount::Power EnergyAccount::power_at_end(const Integrator& integrator) {
   if (solved_between_steps()) return power(integrator, integrator.time());
   yp_ = integrator.yp();
-  return {dae_->supplied_power(), dae_->dissipated_power()};
+  return {StatePowers(*dae_).supplied(), StatePowers(*dae_).dissipated()};
 }
 
 // Rates at time t if the power depends on them, otherwise those of the end of the step.
@@ -68,7 +69,7 @@ EnergyAccount::Power EnergyAccount::power(const Integrator& integrator, double t
   if (needs_rates_ || solved_between_steps()) integrator.interpolate(t, 1, yp_);
   if (solved_between_steps()) consistency_->collocate(t, 1 / (integrator.time() - integrator.previous_time()), y_, yp_);
   dae_->view(t, y_.data(), yp_.data());
-  return {dae_->supplied_power(), dae_->dissipated_power()};
+  return {StatePowers(*dae_).supplied(), StatePowers(*dae_).dissipated()};
 }
 
 void EnergyAccount::remember(double t, const Power& power) {
@@ -163,9 +164,9 @@ void EnergyAccount::step(const Integrator& integrator) {
   const double a = integrator.previous_time(), b = integrator.time();
   if (!(b > a)) return;
   const Power pa = last_, pb = power_at_end(integrator);
-  stored_ = dae_->stored_energy();
+  stored_ = StatePowers(*dae_).stored();
   last_ = pb;
-  const double heat = dae_->heat_of_laws();
+  const double heat = StatePowers(*dae_).heat_of_laws();
   sum_.dissipated += heat - heat_;
   heat_ = heat;
   if (!integrator.exact()) remember(b, pb);

@@ -225,11 +225,11 @@ class Explainer {
     for (const NodeId node : network_.node_order) {
       const bool massive = structure.kind[at(node)] == Kind::massive;
       const bool pivot = std::any_of(structure.tied.begin(), structure.tied.end(), [&](const Structure::Tied& tied) { return tied.pivot == node; });
-      add(dae.velocity_unknown(node),
+      add(dae.indices().velocity[at(node)],
           {.quantity = "velocity", .unit = unit(network_.node(node), Quantity::velocity),
            .equation = pivot ? "the velocities at its transmission fit together" : massive ? "mass times acceleration is the sum of forces" : "the forces at the node balance", .of_nodes = true},
           network_.node_name(node));
-      add(dae.position_unknown(node),
+      add(dae.indices().position[at(node)],
           {.quantity = "position", .unit = unit(network_.node(node), Quantity::position), .equation = "its rate is the velocity", .of_nodes = true},
           network_.node_name(node));
     }
@@ -242,17 +242,17 @@ class Explainer {
       std::size_t i = 0;
       const bool creeps = dae.batch_of(branch, i).creeps(i);
       const std::string rate = creeps ? "its rate is the velocity of its ends, less what flows" : "its rate is the velocity of its ends";
-      add(dae.deflection_unknown(branch),
+      add(dae.indices().deflection[at(branch)],
           {.quantity = "deflection", .unit = unit(network_.element_of(network_.deflections[j]), Quantity::position), .equation = in_tree[j] ? "the forces at its end balance" : rate},
           network_.name_of(network_.deflections[j]));
     }
     for (std::size_t r = 0; r < network_.rates.size(); ++r) {
-      add(dae.force_unknown(static_cast<int>(r)), {.quantity = "force", .unit = unit(network_.element_of(network_.rates[r]), Quantity::force), .equation = "its law"},
+      add(dae.indices().force[r], {.quantity = "force", .unit = unit(network_.element_of(network_.rates[r]), Quantity::force), .equation = "its law"},
           network_.name_of(network_.rates[r]));
     }
     const BlockSignals& blocks = const_cast<Dae&>(dae).inputs().blocks();
     for (std::size_t k = 0; k < blocks.states(); ++k) {
-      add(dae.block_unknown(k), {.quantity = "state", .equation = "its rate follows from what it takes in"},
+      add(dae.indices().block[k], {.quantity = "state", .equation = "its rate follows from what it takes in"},
           element(network_.blocks.blocks[at(blocks.block_of_state(k))].element));
     }
     result_.unknowns = unknowns.take();
@@ -292,9 +292,9 @@ class Explainer {
 
   void find_positions(const Dae& dae) {
     std::vector<char> followed(network_.nodes(), 0);
-    for (const NodeId node : dae.positioned()) followed[at(node)] = 1;
+    for (const NodeId node : dae.positions().order) followed[at(node)] = 1;
     for (const NodeId node : network_.node_order) {
-      if (node == ground || dae.structure().of_time[at(node)] || dae.position_unknown(node) >= 0) continue;
+      if (node == ground || dae.structure().of_time[at(node)] || dae.indices().position[at(node)] >= 0) continue;
       const bool wanted = followed[at(node)] != 0;
       leave_out({.reduction = wanted ? "" : name_of(Reduction::positions),
                  .what = "position of",

@@ -217,7 +217,7 @@ double OutputSampler::acceleration(NodeId end, const Dae::View& view, const std:
   }
   const Structure& structure = dae_->structure();
   const NodeId leader = structure.rigid[at(node)];
-  if (structure.kind[at(leader)] == Kind::viscous) return rates[at(dae_->velocity_unknown(leader))];
+  if (structure.kind[at(leader)] == Kind::viscous) return rates[at(dae_->indices().velocity[at(leader)])];
   return view.acceleration[at(leader)];
 }
 

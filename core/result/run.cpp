@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "core/base/numerics.hpp"
+#include "core/dae/unknown_names.hpp"
 #include "core/netlist/switched_function.hpp"
 #include "core/network/influence_cone.hpp"
 #include "core/network/linearity.hpp"
@@ -244,7 +245,7 @@ std::vector<Summary::Profiled> named(const Profile& profile, const Scene& scene,
     result.starts = counts.starts;
   };
   for (const auto& [subject, counts] : profile.counts()) {
-    const bool node = subject.kind == Dae::Subject::Kind::node;
+    const bool node = subject.kind == UnknownNames::Subject::Kind::node;
     const std::size_t k = static_cast<std::size_t>(subject.index);
     put(line(node, node ? scene.nodes[k].name : scene.elements[k].name), counts);
   }

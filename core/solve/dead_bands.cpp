@@ -76,7 +76,7 @@ void DeadBands::find_force_errors(const std::vector<double>& tolerance, const st
   force_error_ = roundoff_.forces();
   const Structure& structure = dae_->structure();
   for (std::size_t j = 0; j < structure.deflections.size(); ++j) {
-    const int unknown = dae_->deflection_unknown(static_cast<int>(j));
+    const int unknown = dae_->indices().deflection[j];
     if (unknown < 0) continue;
     double& most = force_error_[at(parts_.of(structure.deflections[j]))];
     most = std::max(most, std::abs(slope[j]) * tolerance[at(unknown)]);
@@ -101,7 +101,7 @@ void DeadBands::find_slips(const std::vector<double>& tolerance, const std::vect
   }
   held_error_.assign(structure.kind.size(), 0);
   for (std::size_t j = 0; j < structure.deflections.size(); ++j) {
-    const int unknown = dae_->deflection_unknown(static_cast<int>(j));
+    const int unknown = dae_->indices().deflection[j];
     if (unknown < 0 || structure.deflections[j].a == structure.deflections[j].b) continue;
     const double error = std::abs(slope[j]) * tolerance[at(unknown)];
     for (const NodeId node : {network_.deflections[j].a, network_.deflections[j].b}) held_error_[at(held_[at(node)])] += error;

@@ -60,7 +60,7 @@ void NetworkEvents::find_pseudoplastic() {
   for (const Laws<RateBatch>& laws : dae_.network().rate_laws) {
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {
       const int r = laws.first + static_cast<int>(i);
-      if (dae_.force_unknown(r) >= 0 && laws.batch->growth(i).exponent < 1) between[std::minmax(structure.rates[at(r)].a, structure.rates[at(r)].b)] = r;
+      if (dae_.indices().force[r] >= 0 && laws.batch->growth(i).exponent < 1) between[std::minmax(structure.rates[at(r)].a, structure.rates[at(r)].b)] = r;
     }
   }
   if (between.empty()) return;

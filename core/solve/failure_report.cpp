@@ -6,6 +6,7 @@
 
 #include "core/base/format_list.hpp"
 #include "core/base/index.hpp"
+#include "core/dae/unknown_names.hpp"
 
 namespace rheonet {
 
@@ -38,13 +39,13 @@ std::string all_of(const Network& network) {
 void report_failure(const System& system, const std::vector<double>& tolerance, Integrator::Outcome outcome) {
   const Network& network = system.dae.network();
   const int unknown = at_fault(system, tolerance);
-  const Spot where = unknown < 0 ? network.spot_of(0) : system.dae.spot_of(unknown);
+  const Spot where = unknown < 0 ? network.spot_of(0) : UnknownNames(system.dae).spot_of(unknown);
   throw SimulationError(where, fmt::format(
       "{} {} {}; check the values of {}, or ask for a looser accuracy", at_time(*network.scene, system.integrator.time()),
-      unknown < 0 ? "what the motions make of " + all_of(network) : system.dae.describe(unknown),
+      unknown < 0 ? "what the motions make of " + all_of(network) : UnknownNames(system.dae).describe(unknown),
       outcome == Integrator::Outcome::singular ? "is not determined by the forces around it"
                                                : "changes faster than double precision can follow at this accuracy",
-      unknown < 0 ? "these" : system.dae.around(unknown)));
+      unknown < 0 ? "these" : UnknownNames(system.dae).around(unknown)));
 }
 
 }  // namespace rheonet

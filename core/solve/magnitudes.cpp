@@ -31,17 +31,17 @@ Magnitudes::Magnitudes(const Network& network) : network_(network) {
 void Magnitudes::attach(const Dae& dae) {
   dae_ = &dae;
   // Only here, because most networks have no position among their unknowns in any mode.
-  if (!dae.integrated_positions().empty()) {
+  if (!dae.positions().integrated.empty()) {
     for (std::vector<double>* seen : {&unknown[static_cast<std::size_t>(Unknown::Sort::position)], &gap, &place, &way}) seen->resize(network_.nodes(), 0);
   }
   std::vector<char> positioned(dae.structure().of_time.begin(), dae.structure().of_time.end());
-  for (const NodeId node : dae.positioned()) positioned[at(node)] = 1;
+  for (const NodeId node : dae.positions().order) positioned[at(node)] = 1;
   gaps_.clear();
   has_gap.assign(positioned.size(), 0);
   const auto add = [&](const Branch& b) {
     if (!positioned[at(b.a)] || !positioned[at(b.b)]) return;
     for (const NodeId node : {b.a, b.b}) {
-      if (dae.position_unknown(node) < 0) continue;
+      if (dae.indices().position[at(node)] < 0) continue;
       gaps_.push_back({node, b});
       has_gap[at(node)] = 1;
     }
@@ -88,10 +88,10 @@ void Magnitudes::see_sliders(const Dae::View& view) {
 
 void Magnitudes::see_positions(const Dae::View& view) {
   for (const Gap& g : gaps_) raise(gap[at(g.node)], view.position[at(g.branch.a)] - view.position[at(g.branch.b)]);
-  for (const NodeId node : dae_->integrated_positions()) {
+  for (const NodeId node : dae_->positions().integrated) {
     raise(place[at(node)], view.position[at(node)]);
     raise(way[at(node)], view.position[at(node)]);
-    raise(way[at(node)], view.position[at(dae_->integrated_beside(node))]);
+    raise(way[at(node)], view.position[at(dae_->positions().of[at(node)].parent)]);
   }
 }
 

@@ -50,7 +50,7 @@ class WithinStep {
   WithinStep(const Integrator& integrator, const Dae& dae) : integrator_(integrator), dae_(dae) {}
 
   double deflection(int branch, double t) {
-    const int unknown = dae_.deflection_unknown(branch);
+    const int unknown = dae_.indices().deflection[at(branch)];
     if (unknown < 0) return dae_.driven_deflection(branch, t);
     if (samples_[0].empty()) take_samples();
     double p[step_points];

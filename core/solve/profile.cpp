@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/base/index.hpp"
+#include "core/dae/unknown_names.hpp"
 
 namespace rheonet {
 
@@ -20,17 +21,17 @@ void Profile::restart(const Dae& dae) {
   failures_ = {};
   std::sort(blamed_.begin(), blamed_.end());
   blamed_.erase(std::unique(blamed_.begin(), blamed_.end()), blamed_.end());
-  for (const Dae::Subject& subject : blamed_) ++counts_[subject].starts;
+  for (const UnknownNames::Subject& subject : blamed_) ++counts_[subject].starts;
   if (blamed_.empty()) ++others_.starts;
   blamed_.clear();
 }
 
 void Profile::blame(const std::vector<int>& elements) {
-  for (const int element : elements) blamed_.push_back({Dae::Subject::Kind::element, element});
+  for (const int element : elements) blamed_.push_back({UnknownNames::Subject::Kind::element, element});
 }
 
 void Profile::blame_failure(const Integrator& integrator) {
-  if (const int unknown = integrator.limiting_unknown(); unknown >= 0) blamed_.push_back(dae_->subject(unknown));
+  if (const int unknown = integrator.limiting_unknown(); unknown >= 0) blamed_.push_back(UnknownNames(*dae_).subject(unknown));
 }
 
 void Profile::step(const Integrator& integrator) {
@@ -44,7 +45,7 @@ void Profile::step(const Integrator& integrator) {
 Profile::Counts& Profile::of(int unknown) {
   if (unknown < 0) return others_;
   Counts*& counts = of_unknown_[unknown];
-  if (!counts) counts = &counts_[dae_->subject(unknown)];  // std::map keeps the address valid
+  if (!counts) counts = &counts_[UnknownNames(*dae_).subject(unknown)];  // std::map keeps the address valid
   return *counts;
 }
 

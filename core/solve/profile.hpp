@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/dae/dae.hpp"
+#include "core/dae/unknown_names.hpp"
 #include "core/solve/integrator.hpp"
 
 namespace rheonet {
@@ -32,7 +33,7 @@ class Profile {
   void blame_failure(const Integrator& integrator);
   void step(const Integrator& integrator);
 
-  const std::map<Dae::Subject, Counts>& counts() const { return counts_; }
+  const std::map<UnknownNames::Subject, Counts>& counts() const { return counts_; }
   /// Steps in which no unknown has an error, and restarts that no element caused, such as the first.
   const Counts& others() const { return others_; }
   /// Steps at each order of the method.
@@ -43,11 +44,11 @@ class Profile {
 
   const Dae* dae_ = nullptr;
   std::unordered_map<int, Counts*> of_unknown_;  ///< since the last restart
-  std::map<Dae::Subject, Counts> counts_;
+  std::map<UnknownNames::Subject, Counts> counts_;
   Counts others_;
   std::array<long, Integrator::highest_order + 1> orders_{};
   Integrator::Failures failures_;  ///< counts up to the last step
-  std::vector<Dae::Subject> blamed_;
+  std::vector<UnknownNames::Subject> blamed_;
 };
 
 }  // namespace rheonet

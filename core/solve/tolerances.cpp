@@ -204,7 +204,7 @@ void Tolerances::update(double t, const std::vector<double>& yp, const Dae::View
     // A displacement has the error of its velocity over the time for which scales are foreseen.
     if (q.sort == Sort::deflection || q.sort == Sort::position) tolerance_[i] = std::max(tolerance_[i], accuracy_.relative * velocity * ahead_);
   }
-  if (!dae_->integrated_positions().empty()) loosen_positions();
+  if (!dae_->positions().integrated.empty()) loosen_positions();
   balance_followers_.raise(tolerance_, slope, roundoff_, seen_, relative);
   dead_bands_.find(tolerance_, slope);
 }
@@ -214,7 +214,7 @@ void Tolerances::loosen_positions() {
   for (std::size_t i = 0; i < unknowns_.size(); ++i) {
     const Unknown& q = unknowns_[i];
     if (q.sort != Sort::position || stands_alone(q)) continue;
-    const int velocity = dae_->velocity_unknown(static_cast<NodeId>(q.index));
+    const int velocity = dae_->indices().velocity[at(static_cast<NodeId>(q.index))];
     const double most = numerics::position_loosening * accuracy_.local() * of(seen_.unknown, q);
     if (velocity >= 0) tolerance_[i] = std::max(tolerance_[i], std::min(most, step_ * tolerance_[at(velocity)]));
   }

@@ -11,13 +11,13 @@ std::vector<Unknown> unknowns_of(Dae& dae) {
     if (unknown >= 0) result[at(unknown)] = {sort, static_cast<unsigned>(index)};
   };
   const Structure& structure = dae.structure();
-  for (std::size_t j = 0; j < structure.deflections.size(); ++j) stands_for(dae.deflection_unknown(static_cast<int>(j)), Sort::deflection, j);
-  for (std::size_t r = 0; r < structure.rates.size(); ++r) stands_for(dae.force_unknown(static_cast<int>(r)), Sort::force, r);
+  for (std::size_t j = 0; j < structure.deflections.size(); ++j) stands_for(dae.indices().deflection[j], Sort::deflection, j);
+  for (std::size_t r = 0; r < structure.rates.size(); ++r) stands_for(dae.indices().force[r], Sort::force, r);
   for (std::size_t n = 0; n < structure.kind.size(); ++n) {
-    stands_for(dae.velocity_unknown(static_cast<NodeId>(n)), Sort::velocity, n);
-    stands_for(dae.position_unknown(static_cast<NodeId>(n)), Sort::position, n);
+    stands_for(dae.indices().velocity[n], Sort::velocity, n);
+    stands_for(dae.indices().position[n], Sort::position, n);
   }
-  for (std::size_t k = 0; k < dae.inputs().blocks().states(); ++k) stands_for(dae.block_unknown(k), Sort::block, k);
+  for (std::size_t k = 0; k < dae.inputs().blocks().states(); ++k) stands_for(dae.indices().block[k], Sort::block, k);
   return result;
 }
 

@@ -78,7 +78,7 @@ void UnknownRoundoff::follow(double t, const Dae::View& view) {
 
 void UnknownRoundoff::find(const Dae::View& view, const std::vector<double>& slope, const Magnitudes& seen) {
   if (!balance_.none()) balance_.find(view, slope);
-  if (!dae_->integrated_positions().empty()) find_ways(seen);
+  if (!dae_->positions().integrated.empty()) find_ways(seen);
   find_ties(view);
 }
 
@@ -232,8 +232,8 @@ void UnknownRoundoff::find_unknowns(const Loads& loads, const Dae::View& view) {
 /// Each node of a train has the round-off of the others.
 void UnknownRoundoff::spread_over_trains() {
   for (const Structure::Tied& tied : dae_->structure().tied) {
-    std::vector<std::pair<int, double>> unknowns{{dae_->velocity_unknown(tied.pivot), 1}};
-    for (const auto& [node, factor] : tied.terms) unknowns.emplace_back(dae_->velocity_unknown(node), std::abs(factor));
+    std::vector<std::pair<int, double>> unknowns{{dae_->indices().velocity[at(tied.pivot)], 1}};
+    for (const auto& [node, factor] : tied.terms) unknowns.emplace_back(dae_->indices().velocity[at(node)], std::abs(factor));
     double sum = 0;
     for (const auto& [unknown, factor] : unknowns) sum += unknown < 0 ? 0 : factor * near_0_[at(unknown)];
     for (const auto& [unknown, factor] : unknowns) {
@@ -311,7 +311,7 @@ void UnknownRoundoff::find_forces(const Dae::View& view) {
   for (std::size_t k = 0; k < structure.sliders.size(); ++k) meet(structure.sliders[k], view.slider_force[k]);
   for (std::size_t n = 0; n < parts_.nodes(); ++n) add(parts_.of(static_cast<NodeId>(n)), view.applied[n]);
   for (std::size_t r = 0; any_solved_ && r < dashpot_.size(); ++r) {
-    if (dae_->force_unknown(static_cast<int>(r)) >= 0) continue;
+    if (dae_->indices().force[r] >= 0) continue;
     double& largest = force_[at(parts_.of(structure.rates[r]))];
     largest = std::max(largest, numerics::newton_alternation * dashpot_[r]);
   }
@@ -368,7 +368,7 @@ void UnknownRoundoff::find_ways(const Magnitudes& seen) {
   const std::vector<double>& longest = seen.unknown[static_cast<std::size_t>(Sort::deflection)];
   way_.assign(parts_.nodes(), 0);
   for (std::size_t j = 0; j < structure.deflections.size(); ++j) {
-    const int unknown = dae_->deflection_unknown(static_cast<int>(j));
+    const int unknown = dae_->indices().deflection[j];
     if (unknown < 0) continue;
     double& most = way_[at(parts_.of(structure.deflections[j]))];
     most = std::max({most, numerics::sum_ulps * std::numeric_limits<double>::epsilon() * longest[j], near_0_[at(unknown)]});

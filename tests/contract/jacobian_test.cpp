@@ -19,14 +19,14 @@ std::vector<double> scales(Probe& probe, Domain domain) {
     if (unknown >= 0) scale[at(unknown)] = typical.of(quantity, domain);
   };
   for (std::size_t n = 0; n < probe.structure().kind.size(); ++n) {
-    set(dae.velocity_unknown(static_cast<NodeId>(n)), Quantity::velocity);
-    set(dae.position_unknown(static_cast<NodeId>(n)), Quantity::position);
+    set(dae.indices().velocity[n], Quantity::velocity);
+    set(dae.indices().position[n], Quantity::position);
   }
   for (std::size_t j = 0; j < probe.network().deflections.size(); ++j) {
-    set(dae.deflection_unknown(static_cast<int>(j)), Quantity::position);
+    set(dae.indices().deflection[j], Quantity::position);
   }
   for (std::size_t r = 0; r < probe.network().rates.size(); ++r) {
-    set(dae.force_unknown(static_cast<int>(r)), Quantity::force);
+    set(dae.indices().force[r], Quantity::force);
   }
   return scale;
 }

@@ -101,7 +101,7 @@ TEST_CASE("a shear-thinning dashpot takes no impulse, and there is nothing to sa
     both.between("c2", "dashpot", "end", "mass", {{"damping", B2}});
     Probe probe(both.finish(1, 10, 1e-6));
     CHECK_EQ(probe.change().notes.size(), 1);
-    const auto mass = static_cast<std::size_t>(probe.dae().velocity_unknown(b.node("mass")));
+    const auto mass = static_cast<std::size_t>(probe.dae().indices().velocity[at(b.node("mass"))]);
     CHECK_EQ(probe.y()[mass], doctest::Approx(0.29 + B2 * dx / m).epsilon(1e-14));
   }
 }
@@ -116,7 +116,7 @@ TEST_CASE("a shear-thickening dashpot between a step and a mass is refused; besi
   b.between("c", "dashpot", "mid", "mass", {{"damping", B2}});
   b.at("m", "mass", "mass", {{"mass", m}});
   Probe probe(b.finish(1, 10, 1e-6));
-  const auto mass = static_cast<std::size_t>(probe.dae().velocity_unknown(b.node("mass")));
+  const auto mass = static_cast<std::size_t>(probe.dae().indices().velocity[at(b.node("mass"))]);
   CHECK_EQ(probe.y()[mass], doctest::Approx(B2 * dx / m).epsilon(1e-14));
   REQUIRE_EQ(probe.change().notes.size(), 1);
   CHECK(probe.change().notes[0].find("moves dashpot `c` by 0.0193 m in no time") != std::string::npos);
@@ -136,7 +136,7 @@ TEST_CASE("a rigid dashpot passes an impulse on to the mass behind it") {
   b.between("thin", "dashpot", "mid", "ground", {{"damping", B2}, {"flow_index", 0.5}});
   b.at("m", "mass", "mass", {{"mass", m}});
   Probe probe(b.finish(1, 10, 1e-6));
-  const auto mass = static_cast<std::size_t>(probe.dae().velocity_unknown(b.node("mass")));
+  const auto mass = static_cast<std::size_t>(probe.dae().indices().velocity[at(b.node("mass"))]);
   CHECK_EQ(probe.y()[mass], doctest::Approx(-B * dx / m).epsilon(1e-14));
 
   b.between("thick2", "dashpot", "mid", "ground", {{"damping", B2}, {"flow_index", 1.5}});

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/base/index.hpp"
+#include "core/dae/unknown_names.hpp"
 #include "tests/support/probe.hpp"
 #include "tests/support/scene_builder.hpp"
 
@@ -67,7 +68,7 @@ TEST_CASE("y' of a consistent state satisfies the equations and their derivative
   });
   CHECK(visits > 20);
   // Velocities are up to 0.5 m/s, forces up to 3 N, both change within 0.1 s: rates are up to 30 N/s.
-  for (std::size_t i = 0; i < n; ++i) CHECK_MESSAGE(worst[i] < 3e-6, dae.describe(static_cast<int>(i)) << worst[i]);
+  for (std::size_t i = 0; i < n; ++i) CHECK_MESSAGE(worst[i] < 3e-6, UnknownNames(dae).describe(static_cast<int>(i)) << worst[i]);
 }
 
 // Simpson's rule over three instants of one step: y' is the derivative of the trajectory itself.
@@ -99,7 +100,7 @@ TEST_CASE("y' of a consistent state is the slope of the trajectory") {
   });
   CHECK(compared > 20);
   for (std::size_t i = 0; i < n; ++i) {
-    CHECK_MESSAGE(worst[i] <= 1e-3 * largest[i], dae.describe(static_cast<int>(i))
+    CHECK_MESSAGE(worst[i] <= 1e-3 * largest[i], UnknownNames(dae).describe(static_cast<int>(i))
                                                      << ": " << worst[i] << " of " << largest[i]);
   }
 }

@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include "core/base/index.hpp"
+#include "core/dae/state_powers.hpp"
 #include "tests/support/probe.hpp"
 #include "tests/support/scene_builder.hpp"
 
@@ -18,14 +19,14 @@ class Started {
 
   double velocity(const std::string& node) const { return view_.velocity[at(id(node))]; }
   double position(const std::string& node) const { return view_.position[at(id(node))]; }
-  double reaction(const std::string& node) const { return probe_.dae().reaction(id(node)); }
+  double reaction(const std::string& node) const { return StatePowers(probe_.dae()).reaction(id(node)); }
   double force(const std::string& element) const {
     const Network::Place place = place_of(element);
     return place.role == Role::rate ? view_.rate_force[at(place.index)] : view_.f[at(place.index)];
   }
   double deflection(const std::string& element) const { return view_.p[at(place_of(element).index)]; }
   double deflection_rate(const std::string& element) const { return view_.dp[at(place_of(element).index)]; }
-  double acceleration(const std::string& node) const { return probe_.yp()[at(probe_.dae().velocity_unknown(id(node)))]; }
+  double acceleration(const std::string& node) const { return probe_.yp()[at(probe_.dae().indices().velocity[at(id(node))])]; }
   const Dae::View& view() const { return view_; }
 
  private:
