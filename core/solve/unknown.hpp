@@ -11,7 +11,7 @@ namespace rheonet {
 /// What an unknown is: velocity or position of a node, deflection or force of a branch, or state of a block.
 struct Unknown {
   enum class Sort : char { velocity, deflection, force, position, block };
-  static constexpr std::size_t sorts = 5;
+  static constexpr std::size_t sorts = static_cast<std::size_t>(Sort::block) + 1;
 
   Sort sort;
   unsigned index;  ///< of the node, branch or state
