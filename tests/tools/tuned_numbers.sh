@@ -24,7 +24,6 @@ core/result/row_store.cpp memory
 core/result/row_store.cpp smallest_block
 core/solve/events.hpp of_slider
 core/solve/integrator.hpp highest_order
-core/solve/tolerances.hpp sorts
 core/solve/vectors.cpp block
 core/dae/sliding_mode.cpp 0.5
 core/result/energy.cpp 0.12948496616886969
