@@ -6,7 +6,7 @@
 
 namespace rheonet {
 
-/// Of the node that the force pushes, relative to the one that it is supported by [m/s].
+/// The velocity of the node that the force pushes, relative to the one that supports it [m/s].
 double StatePowers::velocity_across(const Network::Force& force) const {
   return view_.velocity[at(force.a)] - (force.b >= 0 ? view_.velocity[at(force.b)] : 0);
 }

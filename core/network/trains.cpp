@@ -164,7 +164,7 @@ class Trains {
       double& left = from[node];
       const double size = std::max(std::abs(left), std::abs(times * factor));
       left -= times * factor;
-      // What cancels is no term: a factor of round-off would couple a node that the equation does not move.
+      // A term that cancels is left out: a factor of round-off would couple a node that the equation does not move.
       if (std::abs(left) <= numerics::equal_given_values * size) from.erase(node);
     }
     from.erase(pivot);

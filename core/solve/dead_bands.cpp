@@ -54,7 +54,7 @@ double DeadBands::force(int rate) const {
   return std::max(dead_band, std::numeric_limits<double>::min());
 }
 
-/// Of the relative velocity of a branch [m/s]: relative to the network's largest while the branch has hardly moved.
+/// Dead band of the velocity of a branch [m/s]: relative to the network's largest velocity while the branch has hardly moved.
 double DeadBands::of_velocity(bool given, double flow, const Branch& b, double of_difference) const {
   const double of_errors = numerics::reversal_dead_band * accuracy_.relative * std::max(flow, numerics::scale_floor * accuracy_.largest_velocity);
   const double unresolved = given ? numerics::given_velocity_roundoff * flow : std::max({of_errors, roundoff_.at_rest(b), of_difference});

@@ -19,11 +19,11 @@ class DeadBands {
   /// Call after each change of the tolerances. `slope`: df/dp of all deflection branches [N/m].
   void find(const std::vector<double>& tolerance, const std::vector<double>& slope);
 
-  /// Of the velocity of a deflection branch, for its reversals [m/s].
+  /// Dead band of the velocity of a deflection branch, for its reversals [m/s].
   double reversal(int branch) const;
-  /// Of the force of a rate branch that is solved for its force [N].
+  /// Dead band of the force of a rate branch that is solved for its force [N].
   double force(int rate) const;
-  /// Of the velocity of a slider [m/s].
+  /// Dead band of the velocity of a slider [m/s].
   double slider(int slider) const { return slider_[static_cast<std::size_t>(slider)]; }
   /// Scale of the force of a slider [N]: its bound, or the largest force that it, or the train whose losses it stands for, has had. A bound of 0, or one that falls,
   /// says nothing of the forces that balance there.

@@ -32,9 +32,10 @@ class Magnitudes {
   std::vector<double> slide, held;   ///< For each slider: velocity [m/s], force, with that of the train whose losses it stands for [N].
   std::vector<double> relative;      ///< For each node: velocity relative to a neighbour [m/s].
   std::vector<double> least_slide;   ///< For each node: least of the largest velocities of the sliders there that have slipped [m/s].
-  /// For each node whose position is unknown: displacement over a dashpot or slider there, which is a difference of positions and may be
-  /// small beside them; distance from the origin; and the larger of that of the node from which its distance is integrated [m].
-  std::vector<double> gap, place, way;
+  /// For each node whose position is unknown: displacement over a dashpot or slider there [m]. It is a difference of positions, and may be small beside them.
+  std::vector<double> gap;
+  /// Likewise: distance from the origin, and the larger of this and that of the node from which the position is counted [m].
+  std::vector<double> place, way;
   std::vector<char> has_gap;         ///< For each node: it has such a dashpot or slider at present.
   double motion = 0, applied = 0;    ///< Velocity of a motion [m/s], applied force [N].
 

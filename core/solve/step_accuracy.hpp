@@ -2,7 +2,7 @@
 
 namespace rheonet {
 
-/// What a step is allowed, relative to the scale of an unknown; and the scale of velocities.
+/// The error that a step may make, relative to the scale of an unknown, and the scale of velocities.
 struct StepAccuracy {
   double relative;               ///< the tolerance
   double dense;                  ///< the one used where small kinks are dense (bundle_corners.hpp)

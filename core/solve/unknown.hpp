@@ -8,7 +8,7 @@
 
 namespace rheonet {
 
-/// What an unknown is: velocity or position of a node, deflection or force of a branch, or state of a block.
+/// The quantity that an unknown stands for: velocity or position of a node, deflection or force of a branch, or state of a block.
 struct Unknown {
   enum class Sort : char { velocity, deflection, force, position, block };
   static constexpr std::size_t sorts = static_cast<std::size_t>(Sort::block) + 1;
@@ -25,7 +25,7 @@ using ByUnknown = std::array<std::vector<double>, Unknown::sorts>;
 inline double& of(ByUnknown& values, const Unknown& q) { return values[static_cast<std::size_t>(q.sort)][q.index]; }
 inline double of(const ByUnknown& values, const Unknown& q) { return values[static_cast<std::size_t>(q.sort)][q.index]; }
 
-/// What each unknown of these equations is.
+/// The unknowns of these equations, in the order of y.
 std::vector<Unknown> unknowns_of(Dae& dae);
 
 }  // namespace rheonet

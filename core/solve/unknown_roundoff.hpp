@@ -21,7 +21,8 @@ class UnknownRoundoff {
   void restart(double t, const Dae::View& view);
   /// Call after a step that ended at t.
   void follow(double t, const Dae::View& view);
-  /// The round-off that depends on the slopes df/dp of all deflection branches [N/m], and on what has been seen.
+  /// Finds what changes with each step: round-off of balances by the slopes df/dp of all deflection branches [N/m], of positions by the largest deflections so far, and of
+  /// velocities at trains.
   void find(const Dae::View& view, const std::vector<double>& slope, const Magnitudes& seen);
 
   /// Adds the round-off of unknown i to its tolerance, where steps have the length `step` [s]. `jitter`: its change within the round-off of
@@ -31,19 +32,19 @@ class UnknownRoundoff {
   /// Round-off of the forces that the unknown follows from; changes below it are none.
   const std::vector<double>& grains() const { return grain_; }
 
-  /// Of a velocity in the whole network [m/s], without dilatant laws.
+  /// Round-off of a velocity, anywhere in the network, without dilatant laws [m/s].
   double plain() const;
-  /// Of the relative velocity of a branch with a node without mass, near rest [m/s].
+  /// Round-off of the relative velocity of a branch, near rest, if a node of it has no mass [m/s]; else 0.
   double at_rest(const Branch& b) const;
-  /// Of the velocity of a node of a train that follows from the others [m/s].
+  /// Round-off of the velocity of a node of a train that follows from the others [m/s].
   double tied(std::size_t node) const { return tied_.empty() ? 0 : tied_[node]; }
   double tied(const Branch& b) const { return std::max(tied(static_cast<std::size_t>(b.a)), tied(static_cast<std::size_t>(b.b))); }
-  /// Of the force of a rate branch due to velocities [N].
+  /// Round-off of the force of a rate branch due to velocities [N].
   double dashpot(std::size_t rate) const { return dashpot_[rate]; }
-  /// Of the velocities of deflection branches and sliders whose ends move almost alike [m/s].
+  /// Round-off of the velocities of deflection branches and sliders whose ends move almost alike [m/s].
   double difference(std::size_t branch) const { return difference_[branch]; }
   double slide(std::size_t slider) const { return slide_[slider]; }
-  /// For each part: of its forces near rest [N].
+  /// For each part: round-off of its forces near rest [N].
   const std::vector<double>& forces() const { return force_; }
   /// Some dashpot is solved for its force.
   bool any_solved() const { return any_solved_; }
