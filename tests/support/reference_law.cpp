@@ -13,16 +13,6 @@ constexpr std::array<const char*, 8> type_names = {"spring", "dashpot", "slider"
 
 double sign_of(double x) { return x < 0 ? -1 : 1; }
 
-/// std::pow, in less time for the exponents that most laws have.
-double power(double x, double exponent) {
-  if (exponent == 0.5) return std::sqrt(x);
-  if (exponent == -0.5) return 1 / std::sqrt(x);
-  if (exponent == 1) return x;
-  if (exponent == -1) return 1 / x;
-  if (exponent == 2) return x * x;
-  return std::pow(x, exponent);
-}
-
 }  // namespace
 
 bool ReferenceLaw::is_law(const std::string& type) {
@@ -68,11 +58,11 @@ ReferenceLaw::Value ReferenceLaw::solid_friction(double step) const {
   if (exponent_ == 1) {
     u = before * std::exp(-x);
   } else if (exponent_ < 1) {
-    u = power(std::max(0.0, power(before, q) - q * x), 1 / q);
+    u = std::pow(std::max(0.0, std::pow(before, q) - q * x), 1 / q);
   } else if (before > 0) {
-    u = power(power(before, q) - q * x, 1 / q);
+    u = std::pow(std::pow(before, q) - q * x, 1 / q);
   }
-  return {s * coulomb_ * (1 - u), u > 0 ? stiffness_ * power(u, exponent_) : 0};
+  return {s * coulomb_ * (1 - u), u > 0 ? stiffness_ * std::pow(u, exponent_) : 0};
 }
 
 // The cfm at the end of the step, as u = 1 - s f/Fc. The displacement along its solid friction is step - h f/B, and the
@@ -82,7 +72,7 @@ double ReferenceLaw::relaxing(double step, double h, double s) const {
   const double before = std::max(0.0, 1 - s * force_ / coulomb_), q = 1 - exponent_;
   if (before == 0 && exponent_ >= 1) return 0;
   const double travel = coulomb_ / stiffness_, relaxed = h * coulomb_ / damping_;
-  const double before_to_q = exponent_ == 1 ? 1 : power(before, q);
+  const double before_to_q = exponent_ == 1 ? 1 : std::pow(before, q);
   const auto excess = [&](double u, double u_to_q) {
     const double integral = exponent_ == 1 ? std::log(before / u) : (before_to_q - u_to_q) / q;
     return travel * integral + relaxed * (1 - u) - s * step;
@@ -90,7 +80,7 @@ double ReferenceLaw::relaxing(double step, double h, double s) const {
   if (exponent_ < 1 && excess(0, 0) <= 0) return 0;
   double low = 0, high = 2, u = std::clamp(before, 1e-3, 2.0);
   for (int iteration = 0; iteration < 200; ++iteration) {
-    const double u_to_q = exponent_ == 1 ? 1 : power(u, q);
+    const double u_to_q = exponent_ == 1 ? 1 : std::pow(u, q);
     const double e = excess(u, u_to_q), steepness = travel * u_to_q / u;
     if (std::abs(e) <= rounding * (std::abs(step) + (before + u) * steepness + relaxed)) return u;
     (e > 0 ? low : high) = u;
@@ -123,8 +113,8 @@ ReferenceLaw::Value ReferenceLaw::value(double step, double h) const {
     case Type::dashpot: {
       const double rate = std::abs(step) / h;
       if (exponent_ == 1) return {damping_ * step / h, damping_ / h};
-      const double grown = power(rate, exponent_);
-      return {sign_of(step) * damping_ * grown, exponent_ * damping_ * (rate > 0 ? grown / rate : power(rate, exponent_ - 1)) / h};
+      const double grown = std::pow(rate, exponent_);
+      return {sign_of(step) * damping_ * grown, exponent_ * damping_ * (rate > 0 ? grown / rate : std::pow(rate, exponent_ - 1)) / h};
     }
     case Type::slider:
       if (step > 0) return {slip_ > 0 ? coulomb_ : breakaway_, 0};
@@ -143,7 +133,7 @@ ReferenceLaw::Value ReferenceLaw::value(double step, double h) const {
       break;
   }
   const double s = sign_of(step), u = relaxing(step, h, s);
-  return {s * coulomb_ * (1 - u), u > 0 ? 1 / (power(u, -exponent_) / stiffness_ + h / damping_) : 0};
+  return {s * coulomb_ * (1 - u), u > 0 ? 1 / (std::pow(u, -exponent_) / stiffness_ + h / damping_) : 0};
 }
 
 ReferenceLaw::Interval ReferenceLaw::at_rest(double h) const {
