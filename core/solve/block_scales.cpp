@@ -22,14 +22,6 @@ void BlockScales::follow(Dae& dae) {
   if (!network_.blocks.blocks.empty()) gains_.follow(dae.inputs().blocks());
 }
 
-double BlockScales::limit(const Unknown& q, double scale) const {
-  return network_.blocks.blocks.empty() ? scale : std::min(scale, rheonet::of(most_, q));
-}
-
-double BlockScales::raise(const Unknown& q, double scale) const {
-  return q.sort == Sort::block && !least_state_.empty() ? std::max(scale, least_state_[q.index]) : scale;
-}
-
 void BlockScales::find(Dae& dae, const Dae::View& view, const Magnitudes& seen, double largest_force, double local) {
   if (network_.blocks.blocks.empty()) return;
   for (std::size_t k = 0; k < most_.size(); ++k) most_[k].assign(seen.unknown[k].size(), std::numeric_limits<double>::infinity());

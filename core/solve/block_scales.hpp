@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -23,9 +24,11 @@ class BlockScales {
   void find(Dae& dae, const Dae::View& view, const Magnitudes& seen, double largest_force, double local);
 
   /// The scale of an unknown, from what it is without blocks.
-  double limit(const Unknown& q, double scale) const;
+  double limit(const Unknown& q, double scale) const { return network_.blocks.blocks.empty() ? scale : std::min(scale, rheonet::of(most_, q)); }
   /// Raises the scale of a state to the least that its force asks for.
-  double raise(const Unknown& q, double scale) const;
+  double raise(const Unknown& q, double scale) const {
+    return q.sort == Unknown::Sort::block && !least_state_.empty() ? std::max(scale, least_state_[q.index]) : scale;
+  }
   /// A block senses the position of this node: it may be a small motion beside large ones.
   bool senses_position(std::size_t node) const { return sensed_[node] != 0; }
   /// For each force of the network: largest magnitude if a block gives it [N].
