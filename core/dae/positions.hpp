@@ -8,9 +8,8 @@
 namespace rheonet {
 
 /// How the position of a node is found. It follows from the position of its parent through a deflection that is an unknown
-/// anyway, x = x_parent + sign (p + offset), or along a slider, by the displacement at which it sticks, or from the equation of a train,
-/// whose other nodes are the parent and known ones: the sum of their positions, times their factors, remains what it was. Otherwise its
-/// distance from the parent is integrated, x = x_parent + y: that distance may be small where both move far. A node without neighbours
+/// anyway, x = x_parent + sign (p + offset), or along a slider, by the displacement at which it sticks. It may also follow from the equation
+/// of a train whose other nodes are the parent and known ones: the sum of positions times factors is constant. Otherwise its distance from the parent is integrated, x = x_parent + y: that distance may be small where both move far. A node without neighbours
 /// has ground as its parent.
 struct Position {
   double sign = 1;

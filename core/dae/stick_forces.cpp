@@ -135,7 +135,7 @@ StickForces::StickForces(const Network& network, const Structure& structure, con
     }
     return row[at(end)];
   };
-  // The norm is that of the forces in their own units: what is a change of units here may be an equation elsewhere.
+  // The norm is taken of forces in the units of the scene, so that it does not depend on which gears are changes of units.
   const auto unit = [&](int element) { return std::abs(own_unit(Quantity::force, network.scene->elements[at(element)].scale)); };
   for (std::size_t k = 0; k < network.sliders.size(); ++k) {
     const Network::Slider& s = network.sliders[k];

@@ -1,5 +1,5 @@
-// Gears and brakes pass through rest relative to a base that moves. The last digits of the event left a velocity that does not fit the gears, small beside that of
-// the base: nodes were joined across it, which they did at once, and the inertia of that jump outweighed all forces: "it cannot be decided what slips".
+// Gears and brakes pass through rest relative to a base that moves. The last digits of the event left a velocity that does not fit the gears. It is small
+// beside that of the base, and nodes were joined across it. The inertia of that jump outweighed all forces: "it cannot be decided what slips".
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 

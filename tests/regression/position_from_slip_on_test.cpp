@@ -5,8 +5,8 @@
 
 namespace rheonet::test::position_from_slip_on_test {
 
-// A node that a slider held at ground began to move. Its position, which was 0 so far, was allowed an error smaller than what the restart
-// had left of the balance, at accuracies below 1e-6: no step was small enough.
+// A node that a slider held at ground began to move. Its position was 0 until then, and its tolerance so small that the residual of the balance after
+// the restart exceeded it at accuracies below 1e-6. No step was small enough.
 TEST_CASE("the position of a node that a slider has held") {
   constexpr double coulomb = 0.43103110705498004, speed = 1.161525192610613;
   for (const double accuracy : {1e-5, 1.01e-6, 1e-6, 0.9e-6, 0.5e-6, 1e-7}) {

@@ -64,7 +64,7 @@ std::string wrong_energy(const Scene& scene, const Summary& whole) {
 
 /// Judges the bounds of friction. Returns "" or the place of a violation.
 std::string wrong_friction(const Scene& scene, const RunTable& rows) {
-  // In a moving frame, the velocity of what rests relative to each other is a difference.
+  // In a moving frame, relative velocities of 0 are differences of two velocities, and have their round-off.
   double fastest = 0;
   for (const auto& [path, column] : rows.columns) {
     if (path.ends_with(".velocity")) fastest = std::max(fastest, rows.scale(path));
