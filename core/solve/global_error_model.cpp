@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "core/base/disjoint_sets.hpp"
@@ -51,14 +52,27 @@ long GlobalErrorModel::Swing::turn(double x) {
   return of_turn <= numerics::turn_magnitude * largest ? -std::exchange(turns, 0) : 0;
 }
 
+double GlobalErrorModel::Mover::steepness(double time) const {
+  const auto turns = static_cast<double>(velocity.turns);
+  const double of_sine = std::numbers::pi * turns / time * velocity.largest;
+  return turning / turns / of_sine;
+}
+
 int GlobalErrorModel::part_of(const Branch& b) const { return std::max(part_of_node_[at(b.a)], part_of_node_[at(b.b)]); }
 
-void GlobalErrorModel::follow(double t, const Dae::View& view) {
+void GlobalErrorModel::follow(double t, const Dae::View& view, bool driven) {
   const double step = t - time_;
   time_ = t;
   ++steps_;
+  for (Part& part : parts_) part.steepness = 1;
   for (Mover& m : movers_) {
-    parts_[at(m.part)].turns += m.velocity.follow(view.velocity[at(m.node)]) + m.acceleration.follow(view.acceleration[at(m.node)]);
+    Part& part = parts_[at(m.part)];
+    const double acceleration = view.acceleration[at(m.node)];
+    const long turned = m.velocity.follow(view.velocity[at(m.node)]);
+    part.turns += turned + m.acceleration.follow(acceleration);
+    if (turned != 0) m.turning = turned > 0 ? m.turning + std::abs(acceleration) : 0;
+    const bool remembers = static_cast<double>(m.velocity.turns) > part.forgotten;
+    if (remembers && !driven) part.steepness = std::max(part.steepness, m.steepness(time_));
   }
   if (!mode_changes_) account(step, view);
 }
@@ -94,7 +108,7 @@ void GlobalErrorModel::account(double step, const Dae::View& view) {
 }
 
 double GlobalErrorModel::remembered(const Part& part) const {
-  return part.turns > 0 ? 1 / std::max(part.forgotten, time_ / length_) : 0;
+  return part.turns > 0 ? part.steepness / std::max(part.forgotten, time_ / length_) : 0;
 }
 
 double GlobalErrorModel::local_share() const {

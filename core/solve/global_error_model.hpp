@@ -17,13 +17,17 @@ namespace rheonet {
 /// separately. It oscillates once the velocity or acceleration of one of its masses has changed sign. It forgets its errors
 /// once for each time that it dissipates its stored energy. With sliders or sensors no damping restores a phase: nothing is
 /// forgotten.
+///
+/// An error of a velocity makes all that follows early or late, by a share of the time between turns. Where a motion turns fast beside that
+/// time, as in an impact after a long flight, records change much within such a delay, and steps are to be more accurate by as much.
+/// This holds for free motions that remember a delay until the next turn: those of a driven motion have the times of its drive.
 class GlobalErrorModel {
  public:
   /// `structure` is the network's with every slider slipping; both must outlive this. A run of `length` [s].
   GlobalErrorModel(const Network& network, const Structure& structure, double length);
 
-  /// Call after each step, with the view of the state at its end, t.
-  void follow(double t, const Dae::View& view);
+  /// Call after each step, with the view of the state at its end, t; `driven`: an input oscillates, or jumps later.
+  void follow(double t, const Dae::View& view, bool driven);
   /// The tolerance of a step over the accuracy of the result [1].
   double local_share() const;
   /// The same where most steps cross small kinks (bundle_corners.hpp).
@@ -33,6 +37,7 @@ class GlobalErrorModel {
   /// A part of the network.
   struct Part {
     long turns = 0;        ///< sign changes of velocities and accelerations of its masses
+    double steepness = 1;  ///< that of its steepest mover; at least 1
     double power = 0;      ///< dissipated at the end of the last step [W]
     double stored = 0;     ///< energy stored at present [J]
     double energy = 0;     ///< largest recent stored energy less the heat released since [J]
@@ -58,6 +63,9 @@ class GlobalErrorModel {
     int part;
     double mass;
     Swing velocity = {}, acceleration = {};
+    double turning = 0;    ///< sum of the magnitudes of its acceleration where its velocity turned [m/s^2]
+    /// The mean of these over that of a sine with the same velocity and as many turns, from 0 to `time` [s].
+    double steepness(double time) const;
   };
   int part_of(const Branch& b) const;
   void account(double step, const Dae::View& view);

@@ -293,7 +293,7 @@ class Run {
       t = system_->integrator.time();
       if (leaps_.passed(t, outcome == Integrator::Outcome::event)) limit_step();
       if (settings_.profile) settings_.profile->step(system_->integrator);
-      error_model_.follow(t, view);
+      error_model_.follow(t, view, inputs_.fastest() > 0 || std::isfinite(inputs_.next_signal_break()));
       tolerances_.trust(true);
       if (allow_errors() <= numerics::least_step_tolerance && !on_arc_) ++statistics_.finest_steps;
       tolerances_.follow(t, system_->integrator.y(), system_->integrator.yp(), view);

@@ -128,13 +128,13 @@ double UnknownRoundoff::at_rest(const Branch& b) const {
 }
 
 /// Flags the unknowns that jitter with the round-off of time: in parts with dashpots or friction, which follow their inputs
-/// directly. With springs, masses and ideal sliders alone, without delays, a motion depends on step sizes, not on time.
+/// directly. With springs, stops, masses and ideal sliders alone, without delays, a motion depends on step sizes, not on time.
 void UnknownRoundoff::find_jitter() {
   const Structure& structure = dae_->structure();
   std::vector<char> dissipates(structure.kind.size(), 0);
   for (const Laws<DeflectionBatch>& laws : network_.deflection_laws) {
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {
-      if (laws.batch->creeps(i) || laws.batch->events(i) > 0) dissipates[at(parts_.of(structure.deflections[at(laws.first) + i]))] = 1;
+      if (laws.batch->creeps(i) || !laws.batch->knows_heat()) dissipates[at(parts_.of(structure.deflections[at(laws.first) + i]))] = 1;
     }
   }
   for (const Branch& b : structure.rates) dissipates[at(parts_.of(b))] = 1;

@@ -94,4 +94,46 @@ stop = {}
   CHECK(undamped > 25);
 }
 
+/// A ball that flies between two elastic walls at +-way, for `stop` [s].
+std::string ball(double way, double stiffness, double speed, double stop) {
+  return fmt::format(R"(
+[elements]
+ball = {{ type = "mass", at = "a", mass = {} }}
+walls = {{ type = "stop", between = ["a", "ground"], lower = {}, upper = {}, stiffness = {} }}
+[nodes]
+a = {{ velocity = {} }}
+[simulate]
+method = "ida"
+stop = {}
+output = {{ points = 2001 }}
+)", m, -way, way, stiffness, speed, stop);
+}
+
+// A wall turns it in a seventh of the time that it flies, so a record changes fast beside a delay of the flight.
+TEST_CASE("impacts after long flights come when they should") {
+  const double stiffness = 3e4, way = 0.06, speed = 1.3;
+  const double omega = std::sqrt(stiffness / m), flight = 2 * way / speed, touch = M_PI / omega;
+  for (const double accuracy : {1e-3, 1e-6, 1e-9}) {
+    CAPTURE(accuracy);
+    const RunTable rows = simulate(ball(way, stiffness, speed, 0.5), accuracy);
+    const double off = error_of(rows, "a.velocity", [&](double t) {
+      const double since_wall = t + flight / 2, turns = std::floor(since_wall / (flight + touch));
+      const double deep = std::max(since_wall - turns * (flight + touch) - flight, 0.0);
+      return speed * std::cos(omega * deep) * (std::fmod(turns, 2) == 0 ? 1 : -1);
+    });
+    CHECK(off <= 10 * accuracy);
+  }
+}
+
+// A turn takes 5 ms of 460 ms: the round-off of time, times the acceleration there, is no error of a step.
+TEST_CASE("elastic impacts late in a run keep the velocity") {
+  const double speed = 1.3;
+  const RunTable rows = simulate(ball(0.3, 3e5, speed, 5), 1e-9);
+  double off = 0;
+  for (std::size_t row = 0; row < rows.time().size(); ++row) {
+    if (rows["walls.force"][row] == 0) off = std::max(off, std::abs(std::abs(rows["a.velocity"][row]) / speed - 1));
+  }
+  CHECK(off <= 1e-10);
+}
+
 }  // namespace rheonet::test::global_error_model_test
