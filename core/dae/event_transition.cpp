@@ -78,10 +78,11 @@ EventTransition::Change EventTransition::cross(double t, double horizon, bool st
     if (smooth) keep_slipping(force);
     smooth = false;
     change.sliding_modes.clear();  // these were held before the last break-away
-    const std::vector<int> broken =
-        select_modes(t, time_ahead(t, horizon, state), stepped ? Fired{} : fired, state, modes, force, change);
-    for (int k : broken) broken_[at(k)] = 1;
-    again = !broken.empty();
+    again = false;
+    for (const int k : select_modes(t, time_ahead(t, horizon, state), stepped ? Fired{} : fired, state, modes, force, change)) {
+      again = again || !broken_[at(k)];  // each once, so this ends
+      broken_[at(k)] = 1;
+    }
     stepped = false;
   }
   count_from_turns(state);

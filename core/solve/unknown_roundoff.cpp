@@ -128,7 +128,8 @@ double UnknownRoundoff::at_rest(const Branch& b) const {
 }
 
 /// Flags the unknowns that jitter with the round-off of time: in parts with dashpots or friction, which follow their inputs
-/// directly. With springs, stops, masses and ideal sliders alone, without delays, a motion depends on step sizes, not on time.
+/// directly. With springs, elastic stops, masses and ideal sliders alone, without delays, a motion depends on step sizes, not on time. An impact
+/// happens at a time.
 void UnknownRoundoff::find_jitter() {
   const Structure& structure = dae_->structure();
   std::vector<char> dissipates(structure.kind.size(), 0);
@@ -138,8 +139,8 @@ void UnknownRoundoff::find_jitter() {
     }
   }
   for (const Branch& b : structure.rates) dissipates[at(parts_.of(b))] = 1;
-  if (dae_->inputs().history().any()) {
-    for (const Branch& b : structure.sliders) dissipates[at(parts_.of(b))] = 1;
+  for (std::size_t k = 0; k < structure.sliders.size(); ++k) {
+    if (network_.sliders[k].contact || dae_->inputs().history().any()) dissipates[at(parts_.of(structure.sliders[k]))] = 1;
   }
   jitters_.assign(unknowns_->size(), 1);
   for (std::size_t i = 0; i < unknowns_->size(); ++i) {
