@@ -29,8 +29,8 @@ std::vector<Dae::AtomTerm> Dae::terms_of_atom(std::size_t atom) const {
 std::vector<Dae::Coupling> Dae::entries_of(PatternBuilder& builder, int row, bool of_rate, std::size_t source, double factor) const {
   const BlockSignals& blocks = inputs_->blocks();
   std::vector<Coupling> result;
-  for (std::size_t atom = 0; row >= 0 && atom < blocks.atoms(); ++atom) {
-    if (!(of_rate ? blocks.rate_couples(source, atom) : blocks.couples(static_cast<int>(source), atom))) continue;
+  for (std::size_t atom = 0; row >= 0 && atom < blocks.slopes().atoms(); ++atom) {
+    if (!(of_rate ? blocks.slopes().rate_couples(source, atom) : blocks.slopes().couples(static_cast<int>(source), atom))) continue;
     for (const AtomTerm& term : terms_of_atom(atom)) {
       if (term.column < 0) continue;
       result.push_back({builder.ticket(row, term.column), of_rate, source, atom, factor * term.factor, term.by, term.branch});
@@ -125,11 +125,11 @@ void Dae::move_by_blocks(const double* y) {
 double Dae::acceleration_by(const Network::Motion& motion) const {
   const BlockSignals& blocks = inputs_->blocks();
   double sum = 0;
-  for (std::size_t k = 0; k < blocks.states(); ++k) sum += blocks.slope(motion.block, k) * blocks.rate(k);
+  for (std::size_t k = 0; k < blocks.states(); ++k) sum += blocks.slopes().of_output(motion.block, k) * blocks.rate(k);
   for (std::size_t k = 0; k < blocks.sensed.size(); ++k) {
     const Blocks::Sensor& sensor = network_->blocks.sensors[k];
     if (sensor.what == What::position && sensor.motion < 0)
-      sum += blocks.slope(motion.block, blocks.states() + k) * v_[at(structure_->rigid[at(sensor.index)])];
+      sum += blocks.slopes().of_output(motion.block, blocks.states() + k) * v_[at(structure_->rigid[at(sensor.index)])];
   }
   return motion.sign * sum;
 }
@@ -181,7 +181,7 @@ void Dae::block_jacobian(double* values) const {
 /// An entry of the Jacobian due to a block, at the slopes last updated.
 double Dae::slope(const Coupling& c) const {
   const BlockSignals& blocks = inputs_->blocks();
-  const double slope = c.of_rate ? blocks.rate_slope(c.source, c.atom) : blocks.slope(static_cast<int>(c.source), c.atom);
+  const double slope = c.of_rate ? blocks.slopes().of_rate(c.source, c.atom) : blocks.slopes().of_output(static_cast<int>(c.source), c.atom);
   const double by = c.by == Coupling::By::slope ? df_[c.branch] : c.by == Coupling::By::damping ? rate_d_[c.branch] : 1;
   return c.factor * slope * by;
 }

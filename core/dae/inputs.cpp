@@ -30,8 +30,8 @@ Inputs::Inputs(const Network& network, const Structure& classified, double start
       stop_(network.scene->stop - network.scene->start),
       moves_by_blocks_(false),
       blocks_(network, classified),
-      history_(network, blocks_.delays(), blocks_.reach(), blocks_.channels(), blocks_.longest_step(), firm(classified)) {
-  base_.assign(blocks_.atoms(), {});
+      history_(network, blocks_.past().delays(), blocks_.past().reach(), blocks_.past().channels(), blocks_.past().longest_step(), firm(classified)) {
+  base_.assign(blocks_.slopes().atoms(), {});
 
   for (const Network::Motion& m : network.motions) {
     Motion motion{.element = m.element, .block = m.block, .signal = m.signal, .by_position = m.position, .by_acceleration = m.acceleration, .piece = {}, .anchor_time = start};
@@ -96,7 +96,7 @@ void Inputs::enter(double t, bool jumps) {
     steps_[i] = std::abs(step) <= rounding + m.piece.rounding(t) ? 0 : step;
     next_break_ = std::min(next_break_, exact_end(m.signal, t));
     history_.follow(i, t, m.piece, m.by_position);
-    blocks_.follow(static_cast<int>(i), t, m.piece, m.by_position, m.anchor);
+    blocks_.past().follow(static_cast<int>(i), t, m.piece, m.by_position, m.anchor);
   }
   next_break_ = std::min(next_break_, blocks_.enter(now));
   for (Force& f : forces_) {
@@ -108,7 +108,7 @@ void Inputs::enter(double t, bool jumps) {
 
 void Inputs::mark(double t, bool fresh) {
   since_ = exact(t);
-  history_.mark(t, fresh || (!blocks_.delays().empty() && t > 0 && blocks_.breaks(t, history_)));
+  history_.mark(t, fresh || (!blocks_.past().delays().empty() && t > 0 && blocks_.past().breaks(t, history_)));
   time_ = std::numeric_limits<double>::quiet_NaN();
 }
 
@@ -125,8 +125,8 @@ std::vector<Inputs::Break> Inputs::breaks(double t) const {
   };
   for (const Motion& m : motions_) look(m.element, m.signal, m.piece.integrand());
   for (const Force& f : forces_) look(f.element, f.signal, f.piece);
-  for (const BlockSignals::Generator& g : blocks_.generators()) look(g.element, *g.signal, *g.piece);
-  for (const int block : blocks_.due(t)) result.push_back({blocks_.blocks().blocks[static_cast<std::size_t>(block)].element, "sample", 0});
+  for (const BlockPast::Generator& g : blocks_.past().generators()) look(g.element, *g.signal, *g.piece);
+  for (const int block : blocks_.samplers().due(t)) result.push_back({blocks_.blocks().blocks[static_cast<std::size_t>(block)].element, "sample", 0});
   return result;
 }
 
@@ -326,7 +326,7 @@ std::optional<TimeFunctions> Inputs::time_functions() const {
     if (m.block < 0) look(m.piece, m.by_position ? 0 : 1);
   }
   for (const Force& f : forces_) look(f.piece, 0);
-  for (const BlockSignals::Generator& g : blocks_.generators()) look(*g.piece, 0);
+  for (const BlockPast::Generator& g : blocks_.past().generators()) look(*g.piece, 0);
   if (!simple || all.degree > 2 || omegas.size() > numerics::arc_frequencies) return {};
   all.omegas.assign(omegas.begin(), omegas.end());
   return all;
@@ -336,7 +336,7 @@ double Inputs::fastest() const {
   double omega = 0;
   for (const Motion& m : motions_) omega = std::max(omega, m.piece.fastest());
   for (const Force& f : forces_) omega = std::max(omega, f.piece.fastest());
-  for (const BlockSignals::Generator& g : blocks_.generators()) omega = std::max(omega, g.piece->fastest());
+  for (const BlockPast::Generator& g : blocks_.past().generators()) omega = std::max(omega, g.piece->fastest());
   return omega;
 }
 

@@ -69,7 +69,7 @@ class Inputs {
   void settle_blocks(double t, State& state);
   /// Stores the present in the delay history: call after a discontinuity and after each step, with blocks evaluated at t.
   void remember(double t, const std::vector<double>& velocity, const std::vector<double>& acceleration) {
-    history_.remember(t, velocity, blocks_.remembered(velocity, acceleration));
+    history_.remember(t, velocity, blocks_.past().remembered(velocity, acceleration));
     time_ = std::numeric_limits<double>::quiet_NaN();
   }
   /// Outputs of delays that depend on the past and the present: see BlockSignals::look_back.

@@ -14,6 +14,12 @@
 
 namespace rheonet {
 
+/// Position of each node [m], and whether it was given.
+struct Start::Places {
+  std::vector<double> x;
+  std::vector<char> fixed;
+};
+
 namespace {
 
 /// The initial displacement (`d0`) that an element was given; NaN if none.
@@ -117,10 +123,7 @@ void follow_block(const Network& network, const Network::Motion& motion, double&
 }
 
 /// Start positions of the nodes [m], and whether each of them is given or implied.
-struct Places {
-  std::vector<double> x;
-  std::vector<char> fixed;
-};
+using Places = Start::Places;
 
 Places given_places(const Network& network) {
   Places places{std::vector<double>(network.nodes(), 0), std::vector<char>(network.nodes(), 0)};
@@ -207,20 +210,23 @@ void refuse_velocities_against_links(const Network& network) {
   }
 }
 
-}  // namespace
-
-Start start(const Network& network, const Structure& classified) {
+Places start_places(const Network& network) {
   Places places = given_places(network);
   for (const Network::Motion& m : network.motions) follow_motion(network, m, places);
   refuse_velocities_against_links(network);
   follow_displacements(network, places.x, places.fixed);
+  return places;
+}
 
-  Start result{.state = {}, .inputs = Inputs(network, classified, 0, places.x), .chosen = {}};
-  result.state = first_state(network, places.x, result.inputs);
-  const std::vector<std::string> chosen = start_pairs(network, places.x);
-  result.chosen = balance_start(network, classified, places.fixed, result.state);
-  result.chosen.insert(result.chosen.end(), chosen.begin(), chosen.end());
-  return result;
+}  // namespace
+
+Start::Start(const Network& network, const Structure& classified) : Start(network, classified, start_places(network)) {}
+
+Start::Start(const Network& network, const Structure& classified, const Places& places)
+    : inputs(network, classified, 0, places.x), state(first_state(network, places.x, inputs)) {
+  const std::vector<std::string> pairs = start_pairs(network, places.x);
+  chosen = balance_start(network, classified, places.fixed, state);
+  chosen.insert(chosen.end(), pairs.begin(), pairs.end());
 }
 
 StartWords describe_start(const Start& start, const Network& network, const Structure& classified,

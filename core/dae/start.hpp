@@ -11,14 +11,18 @@ namespace rheonet {
 
 /// A network just before its run, and its inputs.
 struct Start {
-  State state;
-  Inputs inputs;
-  std::vector<std::string> chosen;  ///< values that were neither given nor implied, in words
-};
+  /// From the start values of nodes and elements; `classified` is the structure with every slider slipping. Throws
+  /// SimulationError if they contradict each other.
+  Start(const Network& network, const Structure& classified);
 
-/// From the start values of nodes and elements; `classified` is the structure with every slider slipping. Throws
-/// SimulationError if they contradict each other.
-Start start(const Network& network, const Structure& classified);
+  Inputs inputs;
+  State state;
+  std::vector<std::string> chosen;  ///< values that were neither given nor implied, in words
+
+  struct Places;
+ private:
+  Start(const Network& network, const Structure& classified, const Places& places);
+};
 
 struct StartWords {
   std::vector<std::string> notes;   ///< given values that could not be used

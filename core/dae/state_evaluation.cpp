@@ -157,7 +157,7 @@ bool Dae::load_changes(const Structure::Tie& tie) const {
   const auto within = [&](NodeId node) { return std::find(tie.nodes.begin(), tie.nodes.end(), node) != tie.nodes.end(); };
   for (std::size_t k = 0; k < network_->forces.size(); ++k) {
     const Network::Force& f = network_->forces[k];
-    const bool changes = inputs_->force_rate[k] != 0 || (f.block >= 0 && inputs_->blocks().couples(f.block));
+    const bool changes = inputs_->force_rate[k] != 0 || (f.block >= 0 && inputs_->blocks().slopes().couples(f.block));
     if (changes && within(f.a) != within(f.b)) return true;
   }
   return false;

@@ -110,11 +110,11 @@ double StatePowers::stored() const {
 double StatePowers::output_rate(int block) const {
   const BlockSignals& blocks = dae_.inputs().blocks();
   double sum = blocks.out(block).derivative;  // due to signals and prescribed motions, at held states and sensors
-  for (std::size_t k = 0; k < blocks.states(); ++k) sum += blocks.slope(block, k) * blocks.rate(k);
+  for (std::size_t k = 0; k < blocks.states(); ++k) sum += blocks.slopes().of_output(block, k) * blocks.rate(k);
   for (std::size_t k = 0; k < blocks.sensed.size(); ++k) {
     const Blocks::Sensor& sensor = network_.blocks.sensors[k];
     if (sensor.what == Blocks::Sensor::What::force || sensor.motion >= 0) continue;
-    sum += blocks.slope(block, blocks.states() + k) *
+    sum += blocks.slopes().of_output(block, blocks.states() + k) *
            (sensor.what == Blocks::Sensor::What::position ? view_.velocity : view_.acceleration)[at(sensor.index)];
   }
   return sum;

@@ -47,7 +47,7 @@ void BlockScales::find_behind_forces(Dae& dae, const Dae::View& view, double lar
   if (!states_of_laws_) find_states_of_laws(dae);
   least_state_.assign(blocks.states(), 0);
   for (const auto& [block, state] : *states_of_laws_) {
-    const double slope = std::abs(blocks.slope(block, state));
+    const double slope = std::abs(blocks.slopes().of_output(block, state));
     if (slope > 0) least_state_[state] = numerics::scale_floor * largest_force / slope;
   }
   std::vector<double>& positions = most_[static_cast<std::size_t>(Sort::position)];
@@ -59,7 +59,7 @@ void BlockScales::find_behind_forces(Dae& dae, const Dae::View& view, double lar
     for (std::size_t s = 0; s < network_.blocks.sensors.size() && !positions.empty(); ++s) {
       const Blocks::Sensor& sensor = network_.blocks.sensors[s];
       if (sensor.what != Blocks::Sensor::What::position) continue;
-      const double stiffness = std::abs(blocks.slope(block, blocks.states() + s));
+      const double stiffness = std::abs(blocks.slopes().of_output(block, blocks.states() + s));
       const NodeId node = dae.structure().rigid[at(sensor.index)];
       const double force = std::max(seen, std::abs(view.velocity[at(node)]) * std::sqrt(stiffness * dae.structure().inertia[at(node)]));
       double& scale = positions[at(sensor.index)];
@@ -72,7 +72,7 @@ void BlockScales::find_states_of_laws(Dae& dae) {
   const BlockSignals& blocks = dae.inputs().blocks();
   std::vector<char> elsewhere(blocks.states(), 0);  // acts on more than the force of a law
   const auto acts = [&](int block) {
-    for (std::size_t s = 0; block >= 0 && s < elsewhere.size(); ++s) elsewhere[s] = elsewhere[s] || blocks.couples(block, s);
+    for (std::size_t s = 0; block >= 0 && s < elsewhere.size(); ++s) elsewhere[s] = elsewhere[s] || blocks.slopes().couples(block, s);
   };
   for (const Network::Motion& motion : network_.motions) acts(motion.block);
   for (const Network::Slider& slider : network_.sliders) {
@@ -80,12 +80,12 @@ void BlockScales::find_states_of_laws(Dae& dae) {
   }
   for (const Network::Force& force : network_.forces) acts(force.resists ? -1 : force.block);
   for (std::size_t k = 0; k < elsewhere.size(); ++k) {
-    for (std::size_t s = 0; s < elsewhere.size(); ++s) elsewhere[s] = elsewhere[s] || (s != k && blocks.rate_couples(k, s));
+    for (std::size_t s = 0; s < elsewhere.size(); ++s) elsewhere[s] = elsewhere[s] || (s != k && blocks.slopes().rate_couples(k, s));
   }
   states_of_laws_.emplace();
   for (const Network::Force& force : network_.forces) {
     for (std::size_t s = 0; force.resists && force.block >= 0 && s < elsewhere.size(); ++s) {
-      if (!elsewhere[s] && blocks.couples(force.block, s)) states_of_laws_->emplace_back(force.block, s);
+      if (!elsewhere[s] && blocks.slopes().couples(force.block, s)) states_of_laws_->emplace_back(force.block, s);
     }
   }
 }

@@ -37,7 +37,7 @@ class Run {
         settings_(settings),
         observer_(observer),
         classified_(classify(network)),
-        begin_(start(network, classified_)),
+        begin_(network, classified_),
         inputs_(begin_.inputs),
         given_reversals_(network, classified_, inputs_),
         state_(begin_.state),

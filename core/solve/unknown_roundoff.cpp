@@ -273,8 +273,8 @@ void UnknownRoundoff::find_blocks() {
   for (const Network::Force& force : network_.forces) {
     if (force.block < 0) continue;
     double sum = 0;
-    for (std::size_t atom = 0; atom < blocks.atoms(); ++atom) {
-      const double slope = std::abs(blocks.slope(force.block, atom));
+    for (std::size_t atom = 0; atom < blocks.slopes().atoms(); ++atom) {
+      const double slope = std::abs(blocks.slopes().of_output(force.block, atom));
       if (slope == 0) continue;
       const bool state = atom < blocks.states();
       sum += eps * slope * std::abs((state ? blocks.state[atom] : blocks.sensed[atom - blocks.states()]).value);

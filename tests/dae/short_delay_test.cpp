@@ -82,8 +82,8 @@ TEST_CASE("with delays shorter than a step the Jacobian is exact, and so is y'")
       }
     }
     for (const double now : dae.inputs().felt_now) felt += now != 0;
-    for (std::size_t atom = 0; atom < dae.inputs().blocks().atoms(); ++atom)
-      coupled += dae.inputs().blocks().slope(dae.network().forces[1].block, atom) != 0;
+    for (std::size_t atom = 0; atom < dae.inputs().blocks().slopes().atoms(); ++atom)
+      coupled += dae.inputs().blocks().slopes().of_output(dae.network().forces[1].block, atom) != 0;
     dae.residual(t, moved.data(), moved_rate.data(), r_moved.data());
     for (std::size_t i = 0; i < n; ++i) CHECK(std::abs(r_moved[i] - r[i] - product[i]) <= 1e-9 * (1 + largest[i]));
   });

@@ -50,7 +50,7 @@ Probe::Probe(const Scene& scene)
     : scene_(scene),
       network_(build_network(scene_)),
       classified_(classify(network_)),
-      start_(rheonet::start(network_, classified_)) {
+      start_(network_, classified_) {
   EventTransition instant(network_, classified_, start_.inputs);
   std::vector<double> force(network_.sliders.size(), 0);
   modes_.slider.assign(network_.sliders.size(), Modes::stuck);

@@ -60,7 +60,7 @@ double time_per_step(int masses, int dense) {
     const Modes modes;  // no slider
     const Structure structure = analyse(network, modes);
     const Structure classified = classify(network);
-    Start begin_state = start(network, classified);
+    Start begin_state(network, classified);
     Dae dae(network, structure, begin_state.drive, std::vector<char>(scene.nodes.size(), 0));
     NoEvents events;
     const std::vector<double> tolerance(static_cast<std::size_t>(dae.size()), 1e-7);
