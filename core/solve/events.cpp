@@ -37,8 +37,6 @@ NetworkEvents::NetworkEvents(Dae& dae, Consistency& consistency, const Tolerance
     if (!structure.stuck[k] && (b.a == b.b || dae.network().sliders[k].contact)) continue;
     rates_needed_ = rates_needed_ || floating(b);
     slips_along_ = slips_along_ || (!structure.stuck[k] && floating(b));
-    const auto firm = [&](NodeId n) { return structure.kind[at(n)] == Kind::known || structure.kind[at(n)] == Kind::massive; };
-    if (!structure.stuck[k] && firm(b.a) && firm(b.b)) slipping_.push_back({static_cast<int>(k), sliders_.size(), 0, false});
     sliders_.push_back(static_cast<int>(k));
     events_.push_back({static_cast<int>(k), of_slider});
   }
@@ -143,7 +141,6 @@ double NetworkEvents::band(int k) const {
 }
 
 void NetworkEvents::begin(double t, const double* y, const double* yp) {
-  right_time_ = not_looked;
   find_returning();
   std::fill(margin_.begin(), margin_.end(), 0.0);
   std::fill(law_margin_.begin(), law_margin_.end(), 0.0);
@@ -151,10 +148,6 @@ void NetworkEvents::begin(double t, const double* y, const double* yp) {
   std::fill(loss_margin_.begin(), loss_margin_.end(), 0.0);
   at_begin_.resize(events_.size());
   evaluate(t, y, yp, at_begin_.data());
-  if (!slipping_.empty()) {
-    const Dae::View& view = dae_.view(t, y, yp);
-    for (Slipping& one : slipping_) one.slope = slope(one, view);
-  }
   // Never exactly 0, as for limits.
   const auto margin = [](double g) { return g <= 0 ? -g * (1 + numerics::balance_roundoff) + std::numeric_limits<double>::min() : 0; };
   // Mode selection and the equations may differ slightly: re-arm the guard at twice its current violation, so that it does
@@ -240,23 +233,17 @@ bool NetworkEvents::sticks() const {
   return !limit_margin_.empty() || !losses_.empty() || !returning_.empty() || std::any_of(sliders_.begin(), sliders_.end(), [&](int k) { return dae_.structure().stuck[at(k)] != 0; });
 }
 
-double NetworkEvents::at_time(const Integrator& integrator, double t, std::size_t k) {
-  integrator.interpolate(t, 0, step_y_);
-  integrator.interpolate(t, 1, step_yp_);
-  return looked_at(k, seen_between(t, step_y_.data(), step_yp_.data()));
+std::vector<std::size_t> NetworkEvents::may_return() const {
+  std::vector<std::size_t> result;
+  for (std::size_t k = first_sudden(); k < events_.size(); ++k) result.push_back(k);
+  for (const Returning& one : returning_) result.push_back(one.event);
+  return result;
 }
 
-void NetworkEvents::all_at(const Dae::View& view, std::vector<double>& g) const {
-  g.resize(suddens() + returning_.size());
-  for (std::size_t i = 0; i < g.size(); ++i) g[i] = looked_at(i, view);
-}
-
-double NetworkEvents::looked_at(std::size_t i, const Dae::View& view) const {
-  return i < suddens() ? sudden_function(i, view) : returning_function(returning_[i - suddens()], view);
-}
-
-double NetworkEvents::returning_function(const Returning& returning, const Dae::View& view) const {
-  return held_functions(watched_[returning.law], view)[at(returning.which)] + law_margin_[returning.event];
+double NetworkEvents::guard(std::size_t k, const Dae::View& view) const {
+  if (k >= first_sudden()) return sudden_function(k - first_sudden(), view);
+  const Returning& one = *std::lower_bound(returning_.begin(), returning_.end(), k, [](const Returning& r, std::size_t event) { return r.event < event; });
+  return held_functions(watched_[one.law], view)[at(one.which)] + law_margin_[k];
 }
 
 std::array<double, numerics::held_law_events> NetworkEvents::held_functions(const Watched& law, const Dae::View& view) const {
@@ -282,81 +269,18 @@ void NetworkEvents::find_returning() {
   }
 }
 
-void NetworkEvents::look_at_step(const Integrator& integrator, double a, double b) {
-  const auto look = [&](double t, std::vector<double>& g) {
-    integrator.interpolate(t, 0, step_y_);
-    integrator.interpolate(t, 1, step_yp_);
-    all_at(seen_between(t, step_y_.data(), step_yp_.data()), g);
-  };
-  // The guards at the end of the previous step are known.
-  if (right_time_ == a)
-    left_.swap(right_);
-  else
-    look(a, left_);
-  const double *y = integrator.y().data(), *yp = integrator.yp().data();
-  all_at(any_at_rest_ ? resolved(b, y, yp) : dae_.view_again(b, y, yp), right_);  // first: the view of the end is the present one
-  right_time_ = b;
-  look((a + b) / 2, middle_);
+bool NetworkEvents::slips(std::size_t k) const { return events_[k].which == of_slider && !dae_.structure().stuck[at(events_[k].branch)]; }
+
+bool NetworkEvents::slips_between_firm(int slider) const {
+  const Structure& structure = dae_.structure();
+  const Branch& b = structure.sliders[at(slider)];
+  const auto firm = [&](NodeId n) { return structure.kind[at(n)] == Kind::known || structure.kind[at(n)] == Kind::massive; };
+  return !structure.stuck[at(slider)] && firm(b.a) && firm(b.b);
 }
 
-const Dae::View& NetworkEvents::seen_between(double t, const double* y, const double* yp) {
-  return any_at_rest_ ? resolved(t, y, yp) : dae_.view(t, y, yp);
-}
-
-double NetworkEvents::slope(const Slipping& one, const Dae::View& view) const {
-  const Branch& b = dae_.structure().sliders[at(one.slider)];
-  return modes_.slider[at(one.slider)] * (view.acceleration[at(b.a)] - view.acceleration[at(b.b)]);
-}
-
-/// Finds the slipping sliders whose speed had a minimum within the step, where they may have stopped. True if any.
-bool NetworkEvents::any_dips(const Dae::View& end) {
-  bool any = false;
-  for (Slipping& one : slipping_) {
-    const double now = slope(one, end);
-    one.dips = one.slope < 0 && now > 0;
-    one.slope = now;
-    any = any || one.dips;
-  }
-  return any;
-}
-
-std::optional<NetworkEvents::Missed> NetworkEvents::missed(const Integrator& integrator, const Dae::View& end) {
-  const double a = integrator.previous_time(), b = integrator.time();
-  std::optional<Missed> first;
-  if (!(b > a)) return first;
-  const bool dips = any_dips(end);
-  if (!dips && !sticks()) return first;
-  std::vector<char> dipping(sliders_.size(), 0);
-  for (const Slipping& one : slipping_) dipping[one.watched] = one.dips;
-  look_at_step(integrator, a, b);
-  for (std::size_t i = 0; i < suddens() + returning_.size(); ++i) {
-    if (i < sliders_.size() && !dae_.structure().stuck[at(sliders_[i])] && !dipping[i]) continue;
-    double left = a, middle = (a + b) / 2, right = b;
-    double gl = left_[i], gm = middle_[i], gr = right_[i];
-    const double steep = std::max({gl, gm, gr}) - std::min({gl, gm, gr});
-    for (int n = 0; n < numerics::missed_event_refinements && gm > 0; ++n) {
-      // The vertex of the parabola through the three points.
-      const double p = (middle - left) * (gm - gr), q = (middle - right) * (gm - gl);
-      const double least = middle - ((middle - left) * p - (middle - right) * q) / (2 * (p - q));
-      if (!(least > left && least < right) || least == middle || std::min({gl, gm, gr}) > numerics::missed_event_dip * (1 + n) * steep + gm / 2) break;
-      const double g = at_time(integrator, least, i);
-      if (g >= gm) break;
-      (least < middle ? right : left) = middle;
-      (least < middle ? gr : gl) = gm;
-      middle = least;
-      gm = g;
-    }
-    if (!(gm < 0) || !(gl > 0)) continue;
-    while (middle - left > numerics::last_digit_ulps * std::numeric_limits<double>::epsilon() * std::abs(middle)) {
-      const double half = (left + middle) / 2;
-      if (half <= left || half >= middle) break;
-      (at_time(integrator, half, i) > 0 ? left : middle) = half;
-    }
-    const std::size_t which = i < suddens() ? events_.size() - suddens() + i : returning_[i - suddens()].event;
-    if (!first || middle < first->t) first = Missed{middle, static_cast<int>(which)};
-  }
-  dae_.view(b, integrator.y().data(), integrator.yp().data());
-  return first;
+double NetworkEvents::slip_acceleration(int slider, const Dae::View& view) const {
+  const Branch& b = dae_.structure().sliders[at(slider)];
+  return modes_.slider[at(slider)] * (view.acceleration[at(b.a)] - view.acceleration[at(b.b)]);
 }
 
 /// The view in which guards are evaluated.
@@ -390,7 +314,7 @@ void NetworkEvents::evaluate(double t, const double* y, const double* yp, double
     w.batch->event_functions(w.i, view.p[j], view.dp[j], velocity, dead_band, g);
     for (int k = 0; k < w.batch->events(w.i); ++k) *g++ += *margin++;
   }
-  for (std::size_t k = 0; k < suddens(); ++k) *g++ = sudden_function(k, view);
+  for (std::size_t k = 0; first_sudden() + k < events_.size(); ++k) *g++ = sudden_function(k, view);
 }
 
 }  // namespace rheonet

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <limits>
-#include <optional>
 #include <vector>
 
 #include "core/dae/consistency.hpp"
@@ -44,10 +42,22 @@ class NetworkEvents final : public EventFunctions {
   /// True if a slider slips at a floating node. Its velocity may follow the inputs directly, without an unknown whose error
   /// test would keep steps short.
   bool slips_along() const { return slips_along_; }
-  /// A force may exceed its bound and return within one step, or a slipping mass may reverse and return. Gives the first
-  /// such event in the last step. `end` is the view of the end of the step, which is the current view afterwards too.
-  struct Missed { double t; int which; };
-  std::optional<Missed> missed(const Integrator& integrator, const Dae::View& end);
+  /// Guards that may cross 0 and return within one step: all but those of laws, and then those of the laws that are held at rest or not in
+  /// contact (DeflectionBatch::contact).
+  std::vector<std::size_t> may_return() const;
+  /// One of these in the state of the view.
+  double guard(std::size_t k, const Dae::View& view) const;
+  /// Numbers of the events of sliders, limits and losses begin here.
+  std::size_t first_sudden() const { return law_margin_.size(); }
+  /// The view in which guards are evaluated within a step.
+  const Dae::View& seen_between(double t, const double* y, const double* yp) { return any_at_rest_ ? resolved(t, y, yp) : dae_.view(t, y, yp); }
+  /// The same at its end.
+  const Dae::View& seen_at_end(double t, const double* y, const double* yp) { return any_at_rest_ ? resolved(t, y, yp) : dae_.view_again(t, y, yp); }
+  /// Whether event k is that of a slider that slips.
+  bool slips(std::size_t k) const;
+  /// A slider that slips between known or massive nodes, and rate of its slip speed [m/s^2].
+  bool slips_between_firm(int slider) const;
+  double slip_acceleration(int slider, const Dae::View& view) const;
 
   int count() const override { return static_cast<int>(events_.size()); }
   void evaluate(double t, const double* y, const double* yp, double* g) override;
@@ -70,26 +80,9 @@ class NetworkEvents final : public EventFunctions {
   void find_pseudoplastic();
   const Dae::View& resolved(double t, const double* y, const double* yp);
   const Dae::View& resolved(double t, const double* y, bool projected);
-  void all_at(const Dae::View& view, std::vector<double>& g) const;
-  /// Fills left_, middle_ and right_ over the step from a to b.
-  void look_at_step(const Integrator& integrator, double a, double b);
-  double at_time(const Integrator& integrator, double t, std::size_t k);
-  /// View for the search of missed events within a step.
-  const Dae::View& seen_between(double t, const double* y, const double* yp);
-  /// An event whose guard may cross 0 and return within one step: one of a law that is held at rest, or not in contact
-  /// (DeflectionBatch::contact). Index of the watched law, its event, and the number among all events.
-  struct Returning { std::size_t law; int which; std::size_t event; };
   void find_returning();
-  double returning_function(const Returning& returning, const Dae::View& view) const;
   /// The event functions of a law; infinite beyond the last.
   std::array<double, numerics::held_law_events> held_functions(const Watched& law, const Dae::View& view) const;
-  /// A slider that slips between known or massive nodes: its index among all sliders and in `sliders_`. `slope`: rate of its
-  /// slip speed at the end of the last step [m/s^2]. `dips`: that speed had a minimum within the step.
-  struct Slipping { int slider; std::size_t watched; double slope; bool dips; };
-  double slope(const Slipping& one, const Dae::View& view) const;
-  bool any_dips(const Dae::View& end);
-  /// Guard i: of the sliders, then of the limits, then of the laws held at rest.
-  double looked_at(std::size_t i, const Dae::View& view) const;
   double slider_function(int slider, const Dae::View& view) const;
   bool moved_apart(int slider) const;
   double force_band(int slider) const;
@@ -97,9 +90,11 @@ class NetworkEvents final : public EventFunctions {
   bool balances_force(int slider) const;
   double limit_function(std::size_t limit) const;
   double loss_function(std::size_t loss, const Dae::View& view) const;
-  /// Guard k of the sliders, then of the limits, in the state of the view.
-  std::size_t suddens() const { return sliders_.size() + limit_margin_.size() + losses_.size(); }
+  /// Guard k of the sliders, then of the limits, then of the losses, in the state of the view.
   double sudden_function(std::size_t k, const Dae::View& view) const;
+
+  /// An event of a law that may return within one step: index of the watched law, its event, and the number among all events.
+  struct Returning { std::size_t law; int which; std::size_t event; };
 
   Dae& dae_;
   Consistency& consistency_;
@@ -111,11 +106,6 @@ class NetworkEvents final : public EventFunctions {
   std::vector<int> sliders_;
   std::vector<Returning> returning_;
   bool any_at_rest_ = false;  ///< any law is held at rest
-  std::vector<Slipping> slipping_;
-  std::vector<double> step_y_, step_yp_;
-  std::vector<double> left_, middle_, right_;  ///< guards of sliders, limits and `returning_` over a step
-  static constexpr double not_looked = std::numeric_limits<double>::quiet_NaN();
-  double right_time_ = not_looked;  ///< time of right_, since the last `begin`
   std::vector<double> margin_;  ///< of each slider
   std::vector<double> limit_margin_;  ///< of each limit
   std::vector<int> losses_;           ///< trains whose losses slip: the side that drives them may change

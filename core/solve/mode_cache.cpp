@@ -11,6 +11,7 @@ System::System(const Network& network, Structure s, Inputs& inputs, const std::v
       dae(network, structure, inputs, needed),
       consistency(dae),
       events(dae, consistency, tolerances, modes),
+      missed_events(dae, events),
       integrator(dae, events, tolerances.values(), tolerances.grains(), options) {}
 
 ModeCache::ModeCache(const Network& network, const Structure& classified, Inputs& inputs, const std::vector<char>& needed,

@@ -8,6 +8,7 @@
 #include "core/dae/consistency.hpp"
 #include "core/solve/events.hpp"
 #include "core/solve/integrator.hpp"
+#include "core/solve/missed_events.hpp"
 #include "core/solve/tolerances.hpp"
 
 namespace rheonet {
@@ -18,6 +19,7 @@ struct System {
   Dae dae;
   Consistency consistency;
   NetworkEvents events;
+  MissedEvents missed_events;
   Integrator integrator;
 
   System(const Network& network, Structure s, Inputs& inputs, const std::vector<char>& needed, const Modes& modes,

@@ -281,7 +281,7 @@ class Run {
         continue;
       }
       const Dae::View& view = view_of_step();
-      if (const auto missed = settings_.locate_events && !on_arc_ ? system_->events.missed(system_->integrator, view) : std::nullopt) {
+      if (const auto missed = settings_.locate_events && !on_arc_ ? system_->missed_events.find(system_->integrator, view) : std::nullopt) {
         system_->integrator.cut(missed->t, missed->which);
         outcome = Integrator::Outcome::event;
         view_of_step();
@@ -424,7 +424,7 @@ class Run {
     std::vector<double> size;
     if (foreseen > 0) size = coming_size(system_->dae, system_->consistency, t, {y_, yp_, ypp}, foreseen);
     tolerances_.foresee(t, foreseen, y_, yp_, size);
-    system_->events.begin(t, y_.data(), yp_.data());
+    watch_guards(t);
     if (system_->dae.rough()) {
       soften_laws();
       system_->consistency.project(t, y_);
@@ -440,9 +440,14 @@ class Run {
                                  inputs_.exact_break(until));
   }
 
+  void watch_guards(double t) {
+    system_->events.begin(t, y_.data(), yp_.data());
+    system_->missed_events.begin(t, y_.data(), yp_.data());
+  }
+
   /// Continues across a discontinuity with the integrator's history.
   void go_on(double t, double until) {
-    system_->events.begin(t, y_.data(), yp_.data());
+    watch_guards(t);
     limit_step();
     system_->integrator.go_on(inputs_.exact_break(until));
   }
