@@ -40,10 +40,14 @@ void start_contacts(const Network& network, State& state) {
       count_from_contact(network, slider, state);
     } else if (d != bound) {
       const auto with_unit = [&](double x) { return rheonet::with_unit(*network.scene, network.element_of(b), x, Quantity::position); };
+      std::string movable;
+      for (const NodeId node : {b.a, b.b}) {
+        if (node != ground) movable += (movable.empty() ? "node `" : " or `") + network.node_name(node) + '`';
+      }
       throw SimulationError(network.spot_of(b.element),
                             fmt::format("element `{}` cannot start with the displacement {}: it is rigid at its bound, {}; change the start position "
-                                        "of node `{}` or `{}`, or the bound",
-                                        network.name_of(b), with_unit(d), with_unit(bound), network.node_name(b.a), network.node_name(b.b)));
+                                        "of {}, or the bound",
+                                        network.name_of(b), with_unit(d), with_unit(bound), movable));
     }
   }
 }

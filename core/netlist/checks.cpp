@@ -49,8 +49,8 @@ std::string values_in(const Formula& formula, const Environment& environment) {
   for (const std::string& name : formula.identifiers()) {
     const Number* number = environment.find(name);
     if (!number) continue;
-    const std::string unit = number->dimension.is_number() ? "" : ' ' + to_string(number->dimension);
-    list += fmt::format("{}{} = {}{}", list.empty() ? "" : ", ", name, number_text(number->value), unit);
+    const std::string unit = unit_of(number->dimension, number->radian);
+    list += fmt::format("{}{} = {}{}{}", list.empty() ? "" : ", ", name, number_text(number->value), unit.empty() ? "" : " ", unit);
   }
   return list;
 }

@@ -151,43 +151,62 @@ std::string to_string(Dimension dimension) {
   return text.empty() ? "1" : text;
 }
 
-std::string describe(Dimension dimension, double radian) {
-  static constexpr struct {
-    Dimension dimension;
-    double radian;
-    const char* words;
-  } known[] = {
-      {{0, 0, 0}, 0, "a pure number"},
-      {{0, 0, 0}, 1, "an angle (rad)"},
-      {{1, 0, 0}, 0, "a length (m)"},
-      {{2, 0, 0}, 0, "an area (m^2)"},
-      {{3, 0, 0}, 0, "a volume (m^3)"},
-      {{0, 0, 1}, 0, "a time (s)"},
-      {{0, 0, -1}, 0, "a frequency (1/s)"},
-      {{0, 0, -1}, 1, "an angular velocity (rad/s)"},
-      {{0, 0, -2}, 1, "an angular acceleration (rad/s^2)"},
-      {{1, 0, -1}, 0, "a velocity (m/s)"},
-      {{1, 0, -2}, 0, "an acceleration (m/s^2)"},
-      {{0, 1, 0}, 0, "a mass (kg)"},
-      {{2, 1, 0}, 0, "a moment of inertia (kg*m^2)"},
-      {{1, 1, -2}, 0, "a force (N)"},
-      {{2, 1, -2}, 0, "a torque or an energy (N*m)"},
-      {{2, 1, -2}, -1, "a torsional stiffness (N*m/rad)"},
-      {{2, 1, -1}, -1, "a torsional damping (N*m*s/rad)"},
-      {{2, 1, -1}, 0, "an angular momentum (N*m*s)"},
-      {{2, 1, -3}, 0, "a power (W)"},
-      {{0, 1, -2}, 0, "a stiffness (N/m)"},
-      {{0, 1, -1}, 0, "a damping (N*s/m)"},
-      {{-1, 1, -2}, 0, "a pressure (Pa)"},
-      {{-1, 1, -1}, 0, "a dynamic viscosity (Pa*s)"},
-      {{2, 0, -1}, 0, "a kinematic viscosity (m^2/s)"},
-      {{-3, 1, 0}, 0, "a density (kg/m^3)"},
+namespace {
+
+/// A dimension that has a name, with the exponent of rad that goes with it.
+struct NamedDimension {
+  Dimension dimension;
+  double radian;
+  const char *name, *unit;
+};
+
+const NamedDimension* find_named(Dimension dimension, double radian) {
+  static constexpr NamedDimension known[] = {
+      {{0, 0, 0}, 0, "a pure number", ""},
+      {{0, 0, 0}, 1, "an angle", "rad"},
+      {{1, 0, 0}, 0, "a length", "m"},
+      {{2, 0, 0}, 0, "an area", "m^2"},
+      {{3, 0, 0}, 0, "a volume", "m^3"},
+      {{0, 0, 1}, 0, "a time", "s"},
+      {{0, 0, -1}, 0, "a frequency", "1/s"},
+      {{0, 0, -1}, 1, "an angular velocity", "rad/s"},
+      {{0, 0, -2}, 1, "an angular acceleration", "rad/s^2"},
+      {{1, 0, -1}, 0, "a velocity", "m/s"},
+      {{1, 0, -2}, 0, "an acceleration", "m/s^2"},
+      {{0, 1, 0}, 0, "a mass", "kg"},
+      {{2, 1, 0}, 0, "a moment of inertia", "kg*m^2"},
+      {{1, 1, -2}, 0, "a force", "N"},
+      {{2, 1, -2}, 0, "a torque or an energy", "N*m"},
+      {{2, 1, -2}, -1, "a torsional stiffness", "N*m/rad"},
+      {{2, 1, -1}, -1, "a torsional damping", "N*m*s/rad"},
+      {{2, 1, -1}, 0, "an angular momentum", "N*m*s"},
+      {{2, 1, -3}, 0, "a power", "W"},
+      {{0, 1, -2}, 0, "a stiffness", "N/m"},
+      {{0, 1, -1}, 0, "a damping", "N*s/m"},
+      {{-1, 1, -2}, 0, "a pressure", "Pa"},
+      {{-1, 1, -1}, 0, "a dynamic viscosity", "Pa*s"},
+      {{2, 0, -1}, 0, "a kinematic viscosity", "m^2/s"},
+      {{-3, 1, 0}, 0, "a density", "kg/m^3"},
   };
   // An exponent of rad that gives no name of its own (N*rad) is ignored.
   for (const double wanted : {radian, 0.0})
     for (const auto& entry : known)
-      if (dimension.same(entry.dimension) && near(entry.radian, wanted)) return entry.words;
-  return "a quantity in " + to_string(dimension);
+      if (dimension.same(entry.dimension) && near(entry.radian, wanted)) return &entry;
+  return nullptr;
+}
+
+}  // namespace
+
+std::string describe(Dimension dimension, double radian) {
+  const NamedDimension* named = find_named(dimension, radian);
+  if (!named) return "a quantity in " + to_string(dimension);
+  const std::string unit = named->unit;
+  return named->name + (unit.empty() ? "" : " (" + unit + ")");
+}
+
+std::string unit_of(Dimension dimension, double radian) {
+  const NamedDimension* named = find_named(dimension, radian);
+  return named ? named->unit : to_string(dimension);
 }
 
 }  // namespace rheonet

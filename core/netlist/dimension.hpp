@@ -57,5 +57,7 @@ std::string to_string(Dimension dimension);
 /// The dimension in words, if it has a name: "a torque or an energy (N*m)". `radian` is the exponent of rad, which
 /// distinguishes an angular velocity from a frequency.
 std::string describe(Dimension dimension, double radian = 0);
+/// The SI unit of a dimension, "N*m"; "" for a number.
+std::string unit_of(Dimension dimension, double radian);
 
 }  // namespace rheonet

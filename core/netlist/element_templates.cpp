@@ -24,7 +24,8 @@ const char* const law_input_example = " = { block = \"current\" }, a quantity of
 const char* const function_example = "an expression over the inputs and the time: \"u1*u2\"";
 
 /// Describes a valid value of a missing parameter.
-std::string wanted(const Parameter& parameter, Domain domain) {
+std::string wanted(const Parameter& parameter, const ElementTemplate& of, Domain domain) {
+  if (of.quantity_of(parameter) != parameter.quantity) return "a number without a unit, which multiplies `" + parameter.coefficient_with + "`";
   const std::string unit = unit_of(parameter.quantity, domain);
   if (parameter.kind == Parameter::Kind::signal)
     return "a signal: a number or a table such as { step = \"1 " + unit + "\" }";
@@ -307,7 +308,7 @@ void TemplateReader::read_element(ElementTemplate& plan, const TomlEntry& type, 
     const bool may_be_absent = parameter.kind == Parameter::Kind::initial || parameter.optional || parameter.fallback ||
                                !parameter.same_as.empty() || among(declaration.one_of, parameter.name) || misnamed;
     const TomlEntry* entry = may_be_absent ? reader.find(name)
-                                           : reader.require(name, plan.spot, [&] { return wanted(parameter, domain); });
+                                           : reader.require(name, plan.spot, [&] { return wanted(parameter, plan, domain); });
     if (!entry) {
       if (parameter.kind == Parameter::Kind::signal && parameter.fallback) plan.default_signals.push_back(i);
       continue;

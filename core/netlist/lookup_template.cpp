@@ -1,5 +1,6 @@
 #include "core/netlist/lookup_template.hpp"
 
+#include <fmt/format.h>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -76,7 +77,7 @@ std::optional<Lookup> LookupTemplate::evaluate(const Environment& environment, C
   for (std::size_t k = 1; k < inputs.values.size(); ++k) {
     const double step = inputs.values[k] - inputs.values[k - 1];
     if (step > 0 || (step == 0 && !smooth_)) continue;
-    diagnostics.error(spot_of(k), step < 0 ? "the inputs of a table must not decrease" : "a smooth table cannot jump, but has two points at one input");
+    diagnostics.error(spot_of(k), step < 0 ? fmt::format("the inputs of a table must not decrease, but {:.6g} follows {:.6g}", inputs.values[k], inputs.values[k - 1]) : "a smooth table cannot jump, but has two points at one input");
     return {};
   }
   inputs.unit.value = outputs.unit.value = 1;
