@@ -14,7 +14,7 @@ namespace {
 /// Branches that did not fire, but move against their direction about as fast as the slowest branch that fired. Friction at
 /// rest may hold such branches together: they reverse at the same event.
 std::vector<NetworkEvents::Turned> turning_along(const std::vector<NetworkEvents::Turned>& all, const std::vector<int>& switched,
-                                                 const EventTransition::Fired& fired) {
+                                                 const FiredGuards& fired) {
   double speed = std::numeric_limits<double>::infinity();
   for (const NetworkEvents::Turned& one : all) {
     if (contains(one.slides ? fired.sliders : fired.turns, one.branch)) speed = std::min(speed, one.speed);
