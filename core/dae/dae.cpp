@@ -12,30 +12,51 @@
 
 namespace rheonet {
 
+namespace {
+
+/// Whether an input acts on an algebraic unknown at once. `varying`: the sliders whose forces vary.
+bool any_follows_time(const Network& network, const Structure& structure, const UnknownIndices& index, const std::vector<std::size_t>& varying) {
+  const auto moves = [&](NodeId node) { return structure.motion[at(node)] >= 0; };
+  // Its velocity is an unknown that no equation differentiates.
+  const auto at_once = [&](NodeId node) { return index.velocity[at(node)] >= 0 && structure.kind[at(node)] != Kind::massive; };
+  const auto pulled = [&](const Branch& b) { return (moves(b.a) && at_once(b.b)) || (moves(b.b) && at_once(b.a)); };
+  const auto pushed = [&](const Network::Force& f) {
+    return at_once(structure.rigid[at(f.a)]) || (f.b >= 0 && at_once(structure.rigid[at(f.b)]));
+  };
+  const auto rubbed = [&](std::size_t k) {
+    const Branch& b = structure.sliders[k];
+    return b.a != b.b && (at_once(b.a) || at_once(b.b));
+  };
+  const auto turned = [&](const Structure::Tied& tied) {
+    return std::any_of(tied.terms.begin(), tied.terms.end(), [&](const Structure::Tied::Term& term) { return moves(term.node); });
+  };
+  return std::any_of(structure.tied.begin(), structure.tied.end(), turned) ||
+         std::any_of(structure.rates.begin(), structure.rates.end(), pulled) ||
+         std::any_of(varying.begin(), varying.end(), rubbed) ||
+         std::any_of(network.forces.begin(), network.forces.end(), pushed);
+}
+
+}  // namespace
+
 Dae::Dae(const Network& network, const Structure& structure, Inputs& inputs, const std::vector<char>& needed)
     : network_(&network),
       structure_(&structure),
       inputs_(&inputs),
       stick_forces_(network, structure, inputs),
       inertia_(network, structure),
-      positions_(find_positions(network, structure, needed)) {
+      positions_(find_positions(network, structure, needed)),
+      index_(number_unknowns(network, structure, positions_, inputs.blocks().states())),
+      sliding_modes_(network, structure, index_) {
   const std::size_t nodes = network.nodes(), nd = network.deflections.size(), nr = network.rates.size();
-  number_unknowns();
-  for (NodeId node : positions_.integrated) index_.position[at(node)] = size_++;
-  for (std::size_t k = 0; k < inputs.blocks().states(); ++k) index_.block.push_back(size_++);
-
-  // All motions are given, but IDA needs an equation: y' = 0 costs nothing.
-  idle_ = size_ == 0;
-  if (idle_) size_ = 1;
-
+  for (const Laws<RateBatch>& laws : network.rate_laws) {
+    for (std::size_t i = 0; i < laws.batch->size(); ++i) rough_ = rough_ || laws.batch->growth(i).exponent != 1;
+  }
   rows_.reserve(structure.closing.size() + positions_.integrated.size());
   felt_terms_.resize(inputs.history().delayed().size());
   for (const int branch : structure.closing) add_row(index_.deflection[at(branch)], false, closed_loop(network, structure, branch));
   for (NodeId node : positions_.integrated) {
     add_row(index_.position[at(node)], true, minus_velocity(structure, node, positions_.of[at(node)].parent));
   }
-  for (const Structure::Group& g : structure.groups) group_row_.push_back(g.tie < 0 ? index_.deflection[at(g.tree_branch)] : -1);
-
   offset_.assign(nd, 0);
   driven_from_ = offset_;
   slip_force_.assign(network.sliders.size(), 0);
@@ -68,7 +89,7 @@ Dae::Dae(const Network& network, const Structure& structure, Inputs& inputs, con
   view_.rate_velocity = view_.rate_force = rate_in_;
   build_pattern();
   loose_dashpots_ = LooseDashpots(network, structure, index_.force);
-  follows_time_ = (inputs.fastest() > 0 || !network.blocks.blocks.empty()) && any_follows_time();
+  follows_time_ = (inputs.fastest() > 0 || !network.blocks.blocks.empty()) && any_follows_time(network, structure, index_, varying_);
 }
 
 Dae::Terms Dae::add_terms(const Structure::Loop& loop) {
@@ -120,25 +141,20 @@ void Dae::build_pattern() {
   draft_balances(drafts);
   draft_rates(drafts);
   draft_rows(drafts);
-  if (idle_) drafts.put_mass(0, 0, 1);
+  if (idle()) drafts.put_mass(0, 0, 1);
   for (const int z : index_.block) drafts.put_mass(z, z, 1);
   build_couplings(drafts.builder);
   share_balances_of_pivots(drafts);
   couple_shares(drafts.builder);
-  find_parallels();
-  for (Follower& f : followers_) {
-    f.own_entry = drafts.builder.ticket(f.row, index_.deflection[at(f.branch)]);
-    f.leader_entry = drafts.builder.ticket(f.row, index_.deflection[at(f.leader)]);
-  }
+  sliding_modes_.reserve(drafts.builder);
   take_entries(drafts);
-  moving_.assign(index_.deflection.size(), 1);
   update_holds();
 }
 
 /// Balances: a branch adds +f at its first node and -f at its second; a group's row is the sum over its nodes.
 void Dae::draft_balances(Drafts& drafts) const {
   const auto balance_row = [&](NodeId node) { return index_.velocity[at(node)]; };
-  const auto group_row = [&](NodeId node) { return balance_of_group(node); };
+  const auto group_row = [&](NodeId node) { return index_.group_balance[at(node)]; };
   for (std::size_t j = 0; j < structure_->deflections.size(); ++j) {
     const Branch& b = structure_->deflections[j];
     if (b.a == b.b) continue;
@@ -236,7 +252,7 @@ void Dae::draft_rows(Drafts& drafts) {
       const auto [j, sign] = flows_[at(k)];
       flow_entries_.push_back({drafts.builder.ticket(row.row, index_.deflection[at(j)]), j, sign});
       std::size_t i = 0;
-      if (batch_of(j, i).creeps(i)) creep_entries_.push_back({drafts.builder.ticket(row.row, index_.deflection[at(j)]), j, sign});
+      if (network_->batch_of(j, i).creeps(i)) creep_entries_.push_back({drafts.builder.ticket(row.row, index_.deflection[at(j)]), j, sign});
     }
     for (int k = row.terms.velocity_begin; k < row.terms.velocity_end; ++k) {
       drafts.put(row.row, index_.velocity[at(velocities_[at(k)].index)], velocities_[at(k)].sign);
@@ -253,7 +269,7 @@ void Dae::draft_rows(Drafts& drafts) {
 /// Builds the pattern, and replaces each ticket by its entry.
 void Dae::take_entries(Drafts& drafts) {
   std::vector<int> entry;
-  pattern_ = drafts.builder.build(size_, entry);
+  pattern_ = drafts.builder.build(size(), entry);
   drafts.builder = {};
   const auto take = [&](auto& list) {
     for (auto& item : list) item.entry = entry[at(item.entry)];
@@ -272,7 +288,7 @@ void Dae::take_entries(Drafts& drafts) {
     s.to = entry[at(s.to)];
   }
   take(tied_);
-  std::vector<char> of_pivot(at(size_), 0);
+  std::vector<char> of_pivot(at(size()), 0);
   for (const Structure::Tied& tied : structure_->tied) of_pivot[at(index_.velocity[at(tied.pivot)])] = 1;
   for (int e = 0; !structure_->tied.empty() && e < pattern_.entries(); ++e) {
     if (of_pivot[at(pattern_.row[at(e)])]) pivot_entries_.push_back(e);
@@ -282,20 +298,14 @@ void Dae::take_entries(Drafts& drafts) {
   take(couplings_);
   for (SlidingCoupling& c : sliding_couplings_) c.coupling.entry = entry[at(c.coupling.entry)];
   for (ShareCoupling& c : share_couplings_) c.coupling.entry = entry[at(c.coupling.entry)];
-  for (Follower& f : followers_) {
-    f.own_entry = entry[at(f.own_entry)];
-    f.leader_entry = entry[at(f.leader_entry)];
-    for (int e = 0; e < pattern_.entries(); ++e) {
-      if (pattern_.row[at(e)] == f.row) f.row_entries.push_back(e);
-    }
-  }
+  sliding_modes_.take(pattern_, entry);
   std::vector<char> with_mass(at(pattern_.entries()), 0);
   for_each_mass([&](int e, double) { with_mass[at(e)] = 1; });
   const auto begin = [&](int column) { return with_mass.begin() + pattern_.column_start[at(column)]; };
-  differentiated_.resize(at(size_));
-  for (int i = 0; i < size_; ++i) {
+  differentiated_.resize(at(size()));
+  for (int i = 0; i < size(); ++i) {
     // Deflections are differentiated; the velocity of a massless node and the force of a dashpot are not.
-    const bool deflection = i >= deflections_begin_ && i < deflections_end_;
+    const bool deflection = i >= index_.deflections_begin && i < index_.deflections_end;
     differentiated_[at(i)] = deflection || std::any_of(begin(i), begin(i + 1), [](char mass) { return mass != 0; });
   }
 }
@@ -313,7 +323,7 @@ void Dae::enter(double t, const State& state, const Modes& modes, std::vector<do
     slider_shift_[k] = network_->sliders[k].contact ? rheonet::displacement(network_->sliders[k], state) : state.position[at(b.a)] - state.position[at(b.b)];
   }
   follow_losses();
-  y.assign(at(size_), 0);
+  y.assign(at(size()), 0);
   for (std::size_t j = 0; j < index_.deflection.size(); ++j) {
     const Branch& b = structure_->deflections[j];
     if (index_.deflection[j] >= 0) {
@@ -368,23 +378,25 @@ void Dae::leave(State& state) const {
 
 void Dae::set_rate_forms() {
   for (const Laws<RateBatch>& laws : network_->rate_laws) {
-    for (std::size_t i = 0; i < laws.batch->size(); ++i) laws.batch->set_by_force(i, by_force_[at(laws.first) + i] != 0);
+    for (std::size_t i = 0; i < laws.batch->size(); ++i) laws.batch->set_by_force(i, index_.force[at(laws.first) + i] >= 0);
   }
 }
 
 void Dae::update_holds() {
-  for (const Laws<DeflectionBatch>& laws : network_->deflection_laws) {
-    for (std::size_t i = 0; i < laws.batch->size(); ++i) moving_[at(laws.first) + i] = laws.batch->holds(i) ? 0 : 1;
-  }
-  differential_.assign(at(size_), 0);
+  sliding_modes_.update();
+  differential_.assign(at(size()), 0);
   for_each_mass([&](int entry, double mass) {
     if (mass != 0) differential_[at(pattern_.row[at(entry)])] = 1;
   });
-  for (Follower& f : followers_) {
-    std::size_t i = 0;
-    f.active = batch_of(f.branch, i).holds(i);
-    if (f.active) differential_[at(f.row)] = 1;
-  }
+  sliding_modes_.mark_differential(differential_);
+}
+
+void Dae::enter_sliding_modes(double t, const double* y, const double* yp, const std::vector<SlidingMode>& sliding_modes) {
+  if (sliding_modes.empty()) return;
+  // Holding a branch changes neither its deflection nor the force of another branch: one view suffices.
+  view(t, y, yp);
+  sliding_modes_.enter(sliding_modes, view_.p, view_.f);
+  update_holds();
 }
 
 }  // namespace rheonet

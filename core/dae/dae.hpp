@@ -5,13 +5,13 @@
 #include <optional>
 #include <vector>
 
-#include "core/base/disjoint_sets.hpp"
 #include "core/base/index.hpp"
 #include "core/dae/inertia_matrix.hpp"
 #include "core/dae/inputs.hpp"
 #include "core/dae/loose_dashpots.hpp"
 #include "core/dae/matrix.hpp"
 #include "core/dae/positions.hpp"
+#include "core/dae/sliding_mode.hpp"
 #include "core/dae/state.hpp"
 #include "core/dae/stick_forces.hpp"
 #include "core/dae/unknown_indices.hpp"
@@ -22,7 +22,7 @@
 namespace rheonet {
 
 /// The equations of a network in one set of modes, F(t, y, y') = 0, of index 1 or less for any wiring. Linear in y', with a
-/// matrix that is constant except for branches held at rest in parallel (Parallel).
+/// matrix that is constant except for branches held at rest in parallel (SlidingModes).
 ///
 /// Sliders add no equations: those that stick join their ends, those that slip are constant forces.
 ///
@@ -45,9 +45,9 @@ class Dae {
   /// `needed` marks the nodes whose positions are requested (one flag a node). Network, structure and inputs must outlive this.
   Dae(const Network& network, const Structure& structure, Inputs& inputs, const std::vector<char>& needed);
 
-  int size() const { return size_; }
+  int size() const { return std::max(index_.count, 1); }
   /// Number of actual unknowns: 0 if every motion is given (size() is then 1).
-  int unknowns() const { return idle_ ? 0 : size_; }
+  int unknowns() const { return index_.count; }
   const Network& network() const { return *network_; }
   const Structure& structure() const { return *structure_; }
   Inputs& inputs() { return *inputs_; }
@@ -67,10 +67,6 @@ class Dae {
 
   // --- What a consistent state needs (see consistency.hpp).
   bool differential(int row) const { return differential_[static_cast<std::size_t>(row)] != 0; }
-  /// The equation in this row is that of a train.
-  bool tied(int row) const {
-    return std::any_of(structure_->tied.begin(), structure_->tied.end(), [&](const Structure::Tied& tied) { return index_.velocity[at(tied.pivot)] == row; });
-  }
   /// Rows of dF/dy' for differential equations, of dF/dy for algebraic ones: the matrix that determines y' and jumps.
   void consistency_matrix(double t, const double* y, double* values);
   /// While set, slopes of power laws are at least their secants from rest: such an iteration never overshoots rest, whereas
@@ -113,11 +109,6 @@ class Dae {
   double displacement(int branch) const { return view_.p[at(branch)] + offset_[at(branch)]; }
   /// Deflection at t of a branch between two prescribed nodes, which is no unknown [m].
   double driven_deflection(int branch, double t) const;
-  /// Sum of the forces at the nodes of a tie [N], and of the magnitudes of the external ones. After `view`.
-  struct Balance { double sum, magnitude; };
-  Balance balance(const Structure::Tie& tie) const;
-  /// Whether a force applied to a tie changes with time at present.
-  bool load_changes(const Structure::Tie& tie) const;
 
   /// Some algebraic unknown may change like the square root of time (a power law at rest): no polynomial approximates it, and
   /// its error says nothing of the errors of other unknowns.
@@ -138,20 +129,11 @@ class Dae {
 
   /// To be called when a law has begun or ceased to hold its branch at rest (DeflectionBatch::holds).
   void update_holds();
-  /// Holds these branches at rest in the state (t, y, y'), in a Filippov sliding mode: their forces follow from their
-  /// neighbours. A branch whose ends others hold together already rests instead.
+  /// Holds these branches at rest in the state (t, y, y'): see SlidingModes::enter.
   void enter_sliding_modes(double t, const double* y, const double* yp, const std::vector<SlidingMode>& sliding_modes);
-  /// This branch has been released at velocity w. Releases the branches in parallel that were held with it, in the direction of
-  /// its law, and returns them.
-  std::vector<int> release_parallel(int branch, double w);
-
-  DeflectionBatch& batch_of(int branch, std::size_t& i) const { return network_->batch_of(branch, i); }
-  /// Output of a block in the state last viewed.
-  double output(int block) const { return inputs_->blocks().out(block).value; }
+  const SlidingModes& sliding_modes() const { return sliding_modes_; }
   /// Limiters take the sides that fit this state: see BlockSignals::choose.
   void choose_limits(double t, const double* y, const double* yp);
-  /// Value of force number `index` of the network [N] in the state last viewed.
-  double applied_force(int index) const { return inputs_->force[at(index)]; }
 
  private:
   /// An entry that is plus or minus the slope of a deflection or rate law.
@@ -162,30 +144,6 @@ class Dae {
   struct Terms { int flow_begin, flow_end, velocity_begin, velocity_end; };
   /// Equation of a loop or position, less the velocity that a delayed branch feels (index into Inputs::felt, -1: none).
   struct Row { int row; bool position; Terms terms; int delayed; };
-
-  /// Branches in parallel that are held at rest have one velocity, 0, and one value of its set-valued sign in [-1, 1]
-  /// (Filippov: the same mixture of both directions for all of them). The first branch carries the equation w = 0. The others
-  /// share its mixture: with the rates of hold_rates
-  ///     (p' - backward)/(forward - backward) = (the same of the first).
-  struct Parallel { std::vector<int> branches; };
-  struct Follower {
-    int branch, leader, row;
-    bool alone;  ///< The leader has no other follower.
-    int own_entry, leader_entry;
-    std::vector<int> row_entries;
-    bool active;
-  };
-  // sliding_mode.cpp
-  void find_parallels();
-  /// Holds a branch at rest in the state last viewed, if its law can, and with it those in parallel. `lean` as for
-  /// DeflectionBatch::hold.
-  void hold_parallel(int branch, int lean);
-  /// A branch in parallel has been held, and this one with it.
-  bool beside_held(int branch, const std::vector<SlidingMode>& sliding_modes) const;
-  /// Difference of the shares of a follower and its leader in the mixture [m/s], and its derivatives by p and p' of both.
-  struct Shared { double difference, by_own, by_leader, by_own_rate, by_leader_rate; };
-  Shared share(const Follower& follower, double own_rate, double leader_rate) const;
-  void share_jacobian(double cj, const double* yp, double* values, bool consistency) const;
 
   /// An entry of the Jacobian due to a block: d(output, or rate of a state)/d(atom) d(atom)/dy times `factor`.
   struct Coupling {
@@ -220,17 +178,11 @@ class Dae {
   void feel_blocks(const double* y);
   void block_jacobian(double* values) const;
 
-  void number_unknowns();
-  bool any_follows_time() const;
-  std::vector<char> told_by_dilatant_laws(DisjointSets told) const;
+  /// All motions are given, but IDA needs an equation: y' = 0 costs nothing.
+  bool idle() const { return index_.count == 0; }
   void add_row(int row, bool position, const Structure::Loop& loop);
   Terms add_terms(const Structure::Loop& loop);
   double sum_of(const Terms& terms, const double* yp) const;
-  /// Row of the equation that balances the forces on the node's group as a whole, or -1.
-  int balance_of_group(NodeId node) const {
-    const int group = structure_->group[at(node)];
-    return group < 0 ? -1 : group_row_[at(group)];
-  }
   struct Drafts;
   void build_pattern();
   void draft_balances(Drafts& drafts) const;
@@ -263,10 +215,9 @@ class Dae {
   StickForces stick_forces_;
   InertiaMatrix inertia_;
   Positions positions_;
-  int size_ = 0;
-  bool idle_ = false, rough_ = false, follows_time_ = false, secants_ = false;
   UnknownIndices index_;
-  int deflections_begin_ = 0, deflections_end_ = 0;  ///< The indices of deflections are one after the other.
+  SlidingModes sliding_modes_;
+  bool rough_ = false, follows_time_ = false, secants_ = false;
   std::vector<Coupling> couplings_;
   std::vector<SlidingCoupling> sliding_couplings_;
   std::vector<ShareCoupling> share_couplings_;
@@ -275,7 +226,6 @@ class Dae {
   /// than the delay).
   std::vector<Terms> felt_terms_;
   std::vector<Structure::Term> flows_, velocities_;  ///< The terms of Terms: branches with unknown deflections, and nodes.
-  std::vector<int> group_row_;   ///< For each group.
   std::vector<char> differential_;         ///< For each row.
   std::vector<char> differentiated_;       ///< For each unknown.
   Pattern pattern_;
@@ -292,13 +242,10 @@ class Dae {
   struct FlowEntry { int entry, branch; double sign; };
   /// An entry due to the present velocity that a delayed branch feels.
   struct FeltEntry { int entry, delayed; double sign; };
-  std::vector<Parallel> parallels_;        ///< Groups of two or more.
-  std::vector<Follower> followers_;
   // Coefficients that vanish while their branch is held at rest.
   std::vector<FlowEntry> flow_entries_;    ///< Entries of p'.
   std::vector<FlowEntry> creep_entries_;   ///< Entries of the slope of its creep.
   std::vector<FeltEntry> felt_entries_;
-  std::vector<double> moving_;             ///< For each deflection branch: 1, or 0 while it is held at rest.
   std::vector<Scatter> scatter_;
 
   std::vector<double> offset_;  ///< Displacement less deflection of each deflection branch that does not creep.
@@ -314,7 +261,6 @@ class Dae {
   std::vector<Loss::Line> loss_lines_; ///< For each train whose losses slip.
   std::vector<std::array<double, 3>> train_forces_;  ///< As in Structure.
   std::vector<Structure::Tied> equations_;           ///< Equations of the trains, with the present shares.
-  std::vector<char> by_force_;         ///< For each rate branch: these equations need its law as w = rate(f).
   // Work space of the residual.
   std::vector<double> work_, v_, a_, rate_in_, rate_out_, rate_d_, df_, dc_;
   View view_;
@@ -329,7 +275,8 @@ template <class Visit>
 void Dae::for_each_mass(Visit visit) const {
   for (const Constant& mass : masses_) visit(mass.entry, mass.value);
   for (const SharedMass& m : shared_masses_) visit(m.entry, -equations_[m.equation].shares[m.share].factor * m.mass);
-  for (const FlowEntry& f : flow_entries_) visit(f.entry, f.sign * moving_[at(f.branch)]);
+  const std::vector<double>& moving = sliding_modes_.moving();
+  for (const FlowEntry& f : flow_entries_) visit(f.entry, f.sign * moving[at(f.branch)]);
 }
 
 }  // namespace rheonet

@@ -57,7 +57,7 @@ void Dae::build_couplings(PatternBuilder& builder) {
       if (end < 0) continue;
       const NodeId node = structure_->rigid[at(end)];
       couple(builder, index_.velocity[at(node)], false, at(f.block), sign);
-      couple(builder, balance_of_group(node), false, at(f.block), sign);
+      couple(builder, index_.group_balance[at(node)], false, at(f.block), sign);
     }
   }
 }
@@ -70,7 +70,7 @@ void Dae::couple_sliders(PatternBuilder& builder) {
     for (std::size_t i = 0; i < network_->sliders[k].varying.size(); ++i) {
       const auto [parameter, block, block_sign] = network_->sliders[k].varying[i];
       for (const auto& [end, sign] : {std::pair{b.a, block_sign}, std::pair{b.b, -block_sign}}) {
-        for (const int row : {index_.velocity[at(end)], balance_of_group(end)}) {
+        for (const int row : {index_.velocity[at(end)], index_.group_balance[at(end)]}) {
           for (const Coupling& entry : entries_of(builder, row, false, at(block), sign)) sliding_couplings_.push_back({entry, k, i});
         }
       }
@@ -152,7 +152,7 @@ void Dae::feel_blocks(const double* y) {
     const Network::Place& place = network_->places[at(sensor.index)];
     if (place.role == Role::deflection) {
       std::size_t i = 0;
-      const DeflectionBatch& batch = batch_of(place.index, i);
+      const DeflectionBatch& batch = network_->batch_of(place.index, i);
       blocks.sensed[k] = batch.force(i, view_.p[at(place.index)]);
     } else if (place.role == Role::rate) {
       std::size_t i = 0;

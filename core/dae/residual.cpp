@@ -78,10 +78,11 @@ void Dae::evaluate_forces(double t, const double* y) {
 }
 
 double Dae::sum_of(const Terms& terms, const double* yp) const {
+  const std::vector<double>& moving = sliding_modes_.moving();
   double sum = 0;
   for (int k = terms.flow_begin; k < terms.flow_end; ++k) {
     const auto [j, sign] = flows_[at(k)];
-    sum += sign * moving_[at(j)] * (yp[index_.deflection[at(j)]] + view_.creep[at(j)]);
+    sum += sign * moving[at(j)] * (yp[index_.deflection[at(j)]] + view_.creep[at(j)]);
   }
   for (int k = terms.velocity_begin; k < terms.velocity_end; ++k) {
     sum += velocities_[at(k)].sign * v_[at(velocities_[at(k)].index)];
@@ -107,12 +108,12 @@ void Dae::balances(const double* yp, double* r) const {
 void Dae::residual(double t, const double* y, const double* yp, double* r) {
   evaluate_forces(t, y);
 
-  if (idle_) r[0] = yp[0];
+  if (idle()) r[0] = yp[0];
   balances(yp, r);
-  for (std::size_t g = 0; g < group_row_.size(); ++g) {
+  for (const Structure::Group& group : structure_->groups) {
     double sum = 0;
-    for (NodeId node : structure_->groups[g].nodes) sum += view_.nodal[at(node)] - view_.applied[at(node)];
-    if (group_row_[g] >= 0) r[group_row_[g]] = sum;
+    for (NodeId node : group.nodes) sum += view_.nodal[at(node)] - view_.applied[at(node)];
+    if (const int row = index_.group_balance[at(group.nodes.front())]; row >= 0) r[row] = sum;
   }
   for (std::size_t k = 0; k < index_.force.size(); ++k) {
     const Branch& b = structure_->rates[k];
@@ -133,15 +134,13 @@ void Dae::residual(double t, const double* y, const double* yp, double* r) {
     for (const auto& [node, share] : tied.shares) r[index_.velocity[at(node)]] -= share * row;
     row = sum;
   }
-  for (const Follower& f : followers_) {
-    if (f.active) r[f.row] = share(f, yp[index_.deflection[at(f.branch)]], yp[index_.deflection[at(f.leader)]]).difference;
-  }
+  sliding_modes_.residual(view_.p, yp, r);
 }
 
 void Dae::magnitudes(double* r) const {
-  std::fill(r, r + size_, 0.0);
+  std::fill(r, r + size(), 0.0);
   const auto add = [&](NodeId node, double x) {
-    for (int row : {index_.velocity[at(node)], balance_of_group(node)}) {
+    for (int row : {index_.velocity[at(node)], index_.group_balance[at(node)]}) {
       if (row >= 0) r[row] += std::abs(x);
     }
   };
@@ -177,7 +176,7 @@ void Dae::magnitudes(double* r) const {
       const Branch& b = structure_->rates[k];
       double forces = 0;
       for (const NodeId n : {b.a, b.b}) {
-        for (int row : {index_.velocity[at(n)], balance_of_group(n)}) {
+        for (int row : {index_.velocity[at(n)], index_.group_balance[at(n)]}) {
           if (row >= 0) forces = std::max(forces, r[row]);
         }
       }
@@ -209,12 +208,13 @@ void Dae::jacobian(double t, double cj, const double* y, const double* yp, doubl
   for (const Constant& c : constants_) values[c.entry] += c.value;
   for_each_mass([&](int entry, double mass) { values[entry] += cj * mass; });
   for (const Scatter& s : scatter_) values[s.entry] += s.sign * (s.source == Source::force ? df_ : rate_d_)[at(s.index)];
-  for (const FlowEntry& f : creep_entries_) values[f.entry] += f.sign * moving_[at(f.branch)] * dc_[at(f.branch)];
+  const std::vector<double>& moving = sliding_modes_.moving();
+  for (const FlowEntry& f : creep_entries_) values[f.entry] += f.sign * moving[at(f.branch)] * dc_[at(f.branch)];
   for (const FeltEntry& f : felt_entries_) values[f.entry] += f.sign * inputs_->felt_now[at(f.delayed)];
   block_jacobian(values);
   tie(values);
   shares_jacobian(yp, values);
-  share_jacobian(cj, yp, values, false);
+  sliding_modes_.jacobian(cj, view_.p, yp, values, false);
 }
 
 /// A power law other than Newton's has slope 0 at rest, where its equation has no solution to first order. A secant up to the
@@ -223,7 +223,8 @@ void Dae::jacobian(double t, double cj, const double* y, const double* yp, doubl
 void Dae::stiffen_resting_laws() {
   double scale = -1;
   Inputs::Reach reach;
-  const bool any_held = std::find(moving_.begin(), moving_.end(), 0.0) != moving_.end();
+  const std::vector<double>& moving = sliding_modes_.moving();
+  const bool any_held = std::find(moving.begin(), moving.end(), 0.0) != moving.end();
   for (const Laws<RateBatch>& laws : network_->rate_laws) {
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {
       const std::size_t r = at(laws.first) + i;
@@ -251,10 +252,11 @@ void Dae::stiffen_resting_laws() {
 
 /// Largest force of the laws that are held at rest between these ends [N].
 double Dae::held_force(const Branch& ends) const {
+  const std::vector<double>& moving = sliding_modes_.moving();
   double largest = 0;
-  for (std::size_t j = 0; j < moving_.size(); ++j) {
+  for (std::size_t j = 0; j < moving.size(); ++j) {
     const Branch& b = structure_->deflections[j];
-    if (moving_[j] == 0 && std::minmax(b.a, b.b) == std::minmax(ends.a, ends.b)) largest = std::max(largest, std::abs(view_.f[j]));
+    if (moving[j] == 0 && std::minmax(b.a, b.b) == std::minmax(ends.a, ends.b)) largest = std::max(largest, std::abs(view_.f[j]));
   }
   return largest;
 }
@@ -276,16 +278,16 @@ void Dae::consistency_matrix(double t, const double* y, double* values) {
     if (differential_[at(pattern_.row[e])]) values[e] = 0;
   }
   for_each_mass([&](int entry, double mass) { values[entry] += mass; });
-  share_jacobian(0, nullptr, values, true);
+  sliding_modes_.jacobian(0, view_.p, nullptr, values, true);
 }
 
 void Dae::time_derivative(double* r) const {
-  std::fill(r, r + size_, 0.0);
+  std::fill(r, r + size(), 0.0);
   const auto add = [&](NodeId node, double x) {
     if (node < 0) return;
     node = structure_->rigid[at(node)];
     if (index_.velocity[at(node)] >= 0 && !differential_[at(index_.velocity[at(node)])]) r[index_.velocity[at(node)]] += x;
-    if (const int row = balance_of_group(node); row >= 0) r[row] += x;
+    if (const int row = index_.group_balance[at(node)]; row >= 0) r[row] += x;
   };
   for (std::size_t k = 0; k < index_.force.size(); ++k) {
     const Branch& b = structure_->rates[k];

@@ -110,7 +110,7 @@ const Dae::View& Dae::view(double t, const double* y, const double* yp) {
 
 void Dae::view_velocities(const double* yp) {
   view_.velocity = v_;
-  const auto flow = [&](int j) { return moving_[at(j)] * (yp[index_.deflection[at(j)]] + view_.creep[at(j)]); };
+  const auto flow = [&](int j) { return sliding_modes_.moving()[at(j)] * (yp[index_.deflection[at(j)]] + view_.creep[at(j)]); };
   for (const Structure::Group& group : structure_->groups) {
     double base = 0;
     if (group.tie >= 0) {
@@ -137,30 +137,6 @@ void Dae::view_velocities(const double* yp) {
 
 double Dae::driven_deflection(int branch, double t) const {
   return driven_from_[at(branch)] + known_way(structure_->deflections[at(branch)], t);
-}
-
-Dae::Balance Dae::balance(const Structure::Tie& tie) const {
-  Balance result{0, 0};
-  for (NodeId node : tie.nodes) {
-    result.sum += view_.nodal[at(node)] - view_.applied[at(node)];
-    result.magnitude += std::abs(view_.applied[at(node)]);
-  }
-  const auto add = [&](const Branch& b, double f) {
-    if (std::find(tie.elements.begin(), tie.elements.end(), b.element) != tie.elements.end()) result.magnitude += std::abs(f);
-  };
-  for (std::size_t k = 0; k < network_->sliders.size(); ++k) add(network_->sliders[k].branch, view_.slider_force[k]);
-  for (std::size_t j = 0; j < network_->deflections.size(); ++j) add(network_->deflections[j], view_.f[j]);
-  return result;
-}
-
-bool Dae::load_changes(const Structure::Tie& tie) const {
-  const auto within = [&](NodeId node) { return std::find(tie.nodes.begin(), tie.nodes.end(), node) != tie.nodes.end(); };
-  for (std::size_t k = 0; k < network_->forces.size(); ++k) {
-    const Network::Force& f = network_->forces[k];
-    const bool changes = inputs_->force_rate[k] != 0 || (f.block >= 0 && inputs_->blocks().couples(f.block));
-    if (changes && within(f.a) != within(f.b)) return true;
-  }
-  return false;
 }
 
 const std::vector<double>& Dae::slopes() {

@@ -44,7 +44,7 @@ void Dae::couple_shares(PatternBuilder& builder) {
 void Dae::shares_jacobian(const double* yp, double* values) {
   if (share_couplings_.empty() || !yp) return;
   sum_forces();
-  std::vector<double> balance(at(size_));
+  std::vector<double> balance(at(size()));
   balances(yp, balance.data());
   std::vector<std::array<double, 3>> rates(train_forces_.size());
   Eigen::MatrixXd rate;

@@ -293,7 +293,7 @@ double OutputSampler::value(std::size_t operand, const Dae::View& view, const st
     case Record::Channel::energy:
       return stored_energy(record.index, view);
     case Record::Channel::out:
-      return dae_->output(record.index);
+      return dae_->inputs().blocks().out(record.index).value;
     case Record::Channel::value:
       break;
     case Record::Channel::force:
