@@ -1,23 +1,25 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
-#include <optional>
 #include <vector>
 
 #include "core/base/index.hpp"
+#include "core/dae/block_entries.hpp"
 #include "core/dae/inertia_matrix.hpp"
 #include "core/dae/inputs.hpp"
+#include "core/dae/jacobian_entries.hpp"
+#include "core/dae/loop_equations.hpp"
 #include "core/dae/loose_dashpots.hpp"
 #include "core/dae/matrix.hpp"
+#include "core/dae/pivot_rows.hpp"
 #include "core/dae/positions.hpp"
 #include "core/dae/sliding_mode.hpp"
+#include "core/dae/slip_forces.hpp"
 #include "core/dae/state.hpp"
 #include "core/dae/stick_forces.hpp"
 #include "core/dae/unknown_indices.hpp"
 #include "core/network/network.hpp"
 #include "core/network/structure.hpp"
-#include "core/network/train_shares.hpp"
 
 namespace rheonet {
 
@@ -63,7 +65,7 @@ class Dae {
   void residual(double t, const double* y, const double* yp, double* r);
   /// dF/dy + cj dF/dy' into `values`, in the order of `pattern()`.
   void jacobian(double t, double cj, const double* y, const double* yp, double* values);
-  const Pattern& pattern() const { return pattern_; }
+  const Pattern& pattern() const { return jacobian_.pattern(); }
 
   // --- What a consistent state needs (see consistency.hpp).
   bool differential(int row) const { return differential_[static_cast<std::size_t>(row)] != 0; }
@@ -94,8 +96,7 @@ class Dae {
   };
   const View& view(double t, const double* y, const double* yp);
   const View& viewed() const { return view_; }
-  /// For each train: factors of its force in the balances of its nodes, as in Structure, with the present losses.
-  const std::vector<std::array<double, 3>>& train_forces() const { return train_forces_; }
+  const SlipForces& slip() const { return slip_; }
   /// Makes a double stand for the exact time t (see Inputs::refine). The view is computed anew if that changes anything.
   void refine(TimePoint t) {
     if (inputs_->refine(t)) viewed_ = {};
@@ -136,61 +137,15 @@ class Dae {
   void choose_limits(double t, const double* y, const double* yp);
 
  private:
-  /// An entry that is plus or minus the slope of a deflection or rate law.
-  enum class Source : char { force, rate };
-  using Sign = signed char;
-  struct Scatter { int entry, index; Source source; Sign sign; };
-  /// Terms [flow_begin, flow_end) of flows_ and [velocity_begin, velocity_end) of velocities_.
-  struct Terms { int flow_begin, flow_end, velocity_begin, velocity_end; };
-  /// Equation of a loop or position, less the velocity that a delayed branch feels (index into Inputs::felt, -1: none).
-  struct Row { int row; bool position; Terms terms; int delayed; };
-
-  /// An entry of the Jacobian due to a block: d(output, or rate of a state)/d(atom) d(atom)/dy times `factor`.
-  struct Coupling {
-    enum class By { itself, slope, damping };  ///< d(atom)/dy: 1, the slope of a deflection law, that of a rate law.
-    int entry;
-    bool of_rate;  ///< It delays the rate of state `source`, else the output of block `source`.
-    std::size_t source, atom;
-    double factor;
-    By by;
-    std::size_t branch;
-  };
-  /// The same through a varying parameter of a slipping slider: times the slope of its sliding force.
-  struct SlidingCoupling { Coupling coupling; std::size_t slider, parameter; };
-  /// The same through the share of a pivot's balance, on which the losses of a train have an influence (TrainShares).
-  struct ShareCoupling { Coupling coupling; std::size_t slider, parameter; Eigen::Index share, pivot; };
-  struct AtomTerm { int column; double factor; Coupling::By by; std::size_t branch; };
-  std::vector<AtomTerm> terms_of_atom(std::size_t atom) const;
-  std::vector<Coupling> entries_of(PatternBuilder& builder, int row, bool of_rate, std::size_t source, double factor) const;
-  void couple(PatternBuilder& builder, int row, bool of_rate, std::size_t source, double factor,
-              Coupling::By by = Coupling::By::itself, std::size_t branch = 0);
-  void build_couplings(PatternBuilder& builder);
-  void couple_motions(PatternBuilder& builder);
-  void couple_sliders(PatternBuilder& builder);
-  // varying_losses.cpp
-  void couple_shares(PatternBuilder& builder);
-  void follow_losses();
-  void shares_jacobian(const double* yp, double* values);
-  double slope(const Coupling& coupling) const;
   void move_by_blocks(const double* y);
   double acceleration_by(const Network::Motion& motion) const;
   double known_acceleration(NodeId node) const;
   void feel_blocks(const double* y);
-  void block_jacobian(double* values) const;
 
   /// All motions are given, but IDA needs an equation: y' = 0 costs nothing.
   bool idle() const { return index_.count == 0; }
-  void add_row(int row, bool position, const Structure::Loop& loop);
-  Terms add_terms(const Structure::Loop& loop);
-  double sum_of(const Terms& terms, const double* yp) const;
-  struct Drafts;
   void build_pattern();
-  void draft_balances(Drafts& drafts) const;
-  void draft_rates(Drafts& drafts) const;
-  void draft_rows(Drafts& drafts);
-  void share_balances_of_pivots(Drafts& drafts);
-  void take_entries(Drafts& drafts);
-  void tie(double* values) const;
+  /// visit(entry, coefficient in dF/dy').
   template <class Visit>
   void for_each_mass(Visit visit) const;
   // residual.cpp
@@ -217,50 +172,19 @@ class Dae {
   Positions positions_;
   UnknownIndices index_;
   SlidingModes sliding_modes_;
+  SlipForces slip_;
+  LoopEquations loops_;
+  JacobianEntries jacobian_;
+  PivotRows pivots_;
+  BlockEntries blocks_;
   bool rough_ = false, follows_time_ = false, secants_ = false;
-  std::vector<Coupling> couplings_;
-  std::vector<SlidingCoupling> sliding_couplings_;
-  std::vector<ShareCoupling> share_couplings_;
-  std::vector<Row> rows_;
-  /// For each delayed branch, the negated present velocity of its free ends. These ends are masses (otherwise no step is longer
-  /// than the delay).
-  std::vector<Terms> felt_terms_;
-  std::vector<Structure::Term> flows_, velocities_;  ///< The terms of Terms: branches with unknown deflections, and nodes.
   std::vector<char> differential_;         ///< For each row.
   std::vector<char> differentiated_;       ///< For each unknown.
-  Pattern pattern_;
-  struct Constant { int entry; double value; };
-  std::vector<Constant> constants_;        ///< Of dF/dy.
-  /// Entries of the balances of pivots, which other rows share; then they make way for the equations of the trains.
-  struct SharedEntry { int from, to; std::size_t equation, share; };
-  std::vector<SharedEntry> shared_entries_;
-  struct SharedMass { int entry; std::size_t equation, share; double mass; };
-  std::vector<SharedMass> shared_masses_;  ///< Entries in the balances of pivots, in the rows that share them.
-  std::vector<int> pivot_entries_;         ///< In the rows of pivots.
-  std::vector<Constant> tied_;             ///< The coefficients of these equations.
-  std::vector<Constant> masses_;           ///< Entries of dF/dy', except for flow_entries_.
-  struct FlowEntry { int entry, branch; double sign; };
-  /// An entry due to the present velocity that a delayed branch feels.
-  struct FeltEntry { int entry, delayed; double sign; };
-  // Coefficients that vanish while their branch is held at rest.
-  std::vector<FlowEntry> flow_entries_;    ///< Entries of p'.
-  std::vector<FlowEntry> creep_entries_;   ///< Entries of the slope of its creep.
-  std::vector<FeltEntry> felt_entries_;
-  std::vector<Scatter> scatter_;
 
   std::vector<double> offset_;  ///< Displacement less deflection of each deflection branch that does not creep.
   std::vector<double> driven_from_;    ///< For each driven branch: its deflection at the last `enter` or `mark` of the inputs [m].
   std::vector<double> slider_shift_;   ///< Displacement of each sticking slider.
   std::vector<double> tied_sum_;       ///< For each equation of a train: the sum of the positions of its nodes, times their factors [m].
-  std::vector<double> slip_force_;     ///< For each slider: 0 while it sticks.
-  std::vector<signed char> slip_side_; ///< For each slider: the direction in which it slips; 0 while it sticks.
-  std::vector<std::size_t> varying_;   ///< Slipping sliders whose sliding force varies.
-  // Losses of trains. While some depend on the speed, the last three change with it.
-  std::vector<char> b_drives_;         ///< For each train.
-  std::optional<TrainShares> train_shares_;  ///< If some depend on the speed.
-  std::vector<Loss::Line> loss_lines_; ///< For each train whose losses slip.
-  std::vector<std::array<double, 3>> train_forces_;  ///< As in Structure.
-  std::vector<Structure::Tied> equations_;           ///< Equations of the trains, with the present shares.
   // Work space of the residual.
   std::vector<double> work_, v_, a_, rate_in_, rate_out_, rate_d_, df_, dc_;
   View view_;
@@ -270,13 +194,11 @@ class Dae {
   LooseDashpots loose_dashpots_;
 };
 
-/// visit(entry, coefficient in dF/dy').
 template <class Visit>
 void Dae::for_each_mass(Visit visit) const {
-  for (const Constant& mass : masses_) visit(mass.entry, mass.value);
-  for (const SharedMass& m : shared_masses_) visit(m.entry, -equations_[m.equation].shares[m.share].factor * m.mass);
-  const std::vector<double>& moving = sliding_modes_.moving();
-  for (const FlowEntry& f : flow_entries_) visit(f.entry, f.sign * moving[at(f.branch)]);
+  for (const JacobianEntries::Constant& mass : jacobian_.masses()) visit(mass.entry, mass.value);
+  pivots_.for_each_mass(visit);
+  loops_.for_each_mass(visit);
 }
 
 }  // namespace rheonet

@@ -39,8 +39,7 @@ void Dae::gather(double t, const double* y) {
     rate_in_[r] = index_.force[r] >= 0 ? y[index_.force[r]] : v_[at(b.a)] - v_[at(b.b)];
   }
   if (inputs_->blocks().any()) feel_blocks(y);
-  for (const std::size_t k : varying_) slip_force_[k] = slip_side_[k] * inputs_->box(k).at(slip_side_[k]).sliding.value;
-  if (train_shares_) follow_losses();
+  slip_.follow();
 }
 
 /// Sums the forces of the branches and the applied forces, at the nodes that represent joined ones.
@@ -54,8 +53,8 @@ void Dae::sum_forces() {
   };
   for (std::size_t j = 0; j < index_.deflection.size(); ++j) add(structure_->deflections[j], view_.f[j]);
   for (std::size_t r = 0; r < index_.force.size(); ++r) add(structure_->rates[r], index_.force[r] >= 0 ? rate_in_[r] : rate_out_[r]);
-  for (std::size_t k = 0; k < slip_force_.size(); ++k) {
-    if (slip_force_[k] != 0) add(structure_->sliders[k], slip_force_[k]);
+  for (std::size_t k = 0; k < slip_.force().size(); ++k) {
+    if (slip_.force()[k] != 0) add(structure_->sliders[k], slip_.force()[k]);
   }
   for (std::size_t k = 0; k < network_->forces.size(); ++k) {
     const Network::Force& f = network_->forces[k];
@@ -75,19 +74,6 @@ void Dae::evaluate_forces(double t, const double* y) {
     laws.batch->evaluate(&rate_in_[k], &rate_out_[k]);
   }
   sum_forces();
-}
-
-double Dae::sum_of(const Terms& terms, const double* yp) const {
-  const std::vector<double>& moving = sliding_modes_.moving();
-  double sum = 0;
-  for (int k = terms.flow_begin; k < terms.flow_end; ++k) {
-    const auto [j, sign] = flows_[at(k)];
-    sum += sign * moving[at(j)] * (yp[index_.deflection[at(j)]] + view_.creep[at(j)]);
-  }
-  for (int k = terms.velocity_begin; k < terms.velocity_end; ++k) {
-    sum += velocities_[at(k)].sign * v_[at(velocities_[at(k)].index)];
-  }
-  return sum;
 }
 
 /// The balance of forces in the row of each velocity.
@@ -119,15 +105,9 @@ void Dae::residual(double t, const double* y, const double* yp, double* r) {
     const Branch& b = structure_->rates[k];
     if (index_.force[k] >= 0) r[index_.force[k]] = v_[at(b.a)] - v_[at(b.b)] - rate_out_[k];
   }
-  for (const Row& row : rows_) {
-    r[row.row] = sum_of(row.terms, yp);
-    if (row.position) r[row.row] += yp[row.row];
-    if (row.delayed < 0) continue;
-    const double now = inputs_->felt_now[at(row.delayed)];
-    r[row.row] += (now == 0 ? 0 : now * sum_of(felt_terms_[at(row.delayed)], yp)) - inputs_->felt[at(row.delayed)];
-  }
+  loops_.residual(v_, view_.creep, yp, r);
   for (std::size_t k = 0; k < index_.block.size(); ++k) r[index_.block[k]] = yp[index_.block[k]] - inputs_->blocks().rate(k);
-  for (const Structure::Tied& tied : equations_) {
+  for (const Structure::Tied& tied : slip_.equations()) {
     double& row = r[index_.velocity[at(tied.pivot)]];
     double sum = v_[at(tied.pivot)];
     for (const auto& [node, factor] : tied.terms) sum += factor * v_[at(node)];
@@ -161,7 +141,7 @@ void Dae::magnitudes(double* r) const {
     add_branch(b, index_.force[k] >= 0 ? rate_in_[k] : std::abs(rate_out_[k]) + rate_d_[k] * speed);
     if (index_.force[k] >= 0) r[index_.force[k]] = std::abs(v_[at(b.a)]) + std::abs(v_[at(b.b)]) + std::abs(rate_out_[k]);
   }
-  for (std::size_t k = 0; k < slip_force_.size(); ++k) add_branch(structure_->sliders[k], slip_force_[k]);
+  for (std::size_t k = 0; k < slip_.force().size(); ++k) add_branch(structure_->sliders[k], slip_.force()[k]);
   for (std::size_t k = 0; k < network_->forces.size(); ++k) {
     const Network::Force& f = network_->forces[k];
     add(structure_->rigid[at(f.a)], inputs_->force[k]);
@@ -184,11 +164,7 @@ void Dae::magnitudes(double* r) const {
       r[index_.force[k]] += (laws.batch->velocity_at(i, f + lost) - laws.batch->velocity_at(i, f)) / numerics::equation_roundoff;
     }
   }
-  for (const Row& row : rows_) {
-    for (int k = row.terms.velocity_begin; k < row.terms.velocity_end; ++k) {
-      r[row.row] += std::abs(velocities_[at(k)].sign * v_[at(velocities_[at(k)].index)]);
-    }
-  }
+  loops_.add_magnitudes(v_, r);
   for (const Structure::Tied& tied : structure_->tied) {
     double& row = r[index_.velocity[at(tied.pivot)]];
     row = std::abs(v_[at(tied.pivot)]);
@@ -204,16 +180,19 @@ void Dae::jacobian(double t, double cj, const double* y, const double* yp, doubl
     laws.batch->linearise(&rate_in_[k], &rate_out_[k], &rate_d_[k]);
   }
   stiffen_resting_laws();
-  std::fill_n(values, pattern_.entries(), 0.0);
-  for (const Constant& c : constants_) values[c.entry] += c.value;
+  std::fill_n(values, pattern().entries(), 0.0);
+  jacobian_.add_constants(values);
   for_each_mass([&](int entry, double mass) { values[entry] += cj * mass; });
-  for (const Scatter& s : scatter_) values[s.entry] += s.sign * (s.source == Source::force ? df_ : rate_d_)[at(s.index)];
-  const std::vector<double>& moving = sliding_modes_.moving();
-  for (const FlowEntry& f : creep_entries_) values[f.entry] += f.sign * moving[at(f.branch)] * dc_[at(f.branch)];
-  for (const FeltEntry& f : felt_entries_) values[f.entry] += f.sign * inputs_->felt_now[at(f.delayed)];
-  block_jacobian(values);
-  tie(values);
-  shares_jacobian(yp, values);
+  jacobian_.add_slopes(df_, rate_d_, values);
+  loops_.add_jacobian(dc_, values);
+  blocks_.add({df_, rate_d_}, values);
+  pivots_.tie(values);
+  if (yp && blocks_.any_shares()) {
+    sum_forces();
+    std::vector<double> balance(at(size()));
+    balances(yp, balance.data());
+    blocks_.add_shares({df_, rate_d_}, balance, values);
+  }
   sliding_modes_.jacobian(cj, view_.p, yp, values, false);
 }
 
@@ -274,8 +253,8 @@ void Dae::guess_forces(double t, double* y) {
 
 void Dae::consistency_matrix(double t, const double* y, double* values) {
   jacobian(t, 0, y, nullptr, values);
-  for (std::size_t e = 0; e < pattern_.row.size(); ++e) {
-    if (differential_[at(pattern_.row[e])]) values[e] = 0;
+  for (std::size_t e = 0; e < pattern().row.size(); ++e) {
+    if (differential_[at(pattern().row[e])]) values[e] = 0;
   }
   for_each_mass([&](int entry, double mass) { values[entry] += mass; });
   sliding_modes_.jacobian(0, view_.p, nullptr, values, true);
@@ -299,14 +278,9 @@ void Dae::time_derivative(double* r) const {
       add(b.b, -rate_d_[k] * dw);
     }
   }
-  for (const Row& row : rows_) {  // loops in which all branches are held at rest
-    if (differential_[at(row.row)]) continue;
-    for (int k = row.terms.velocity_begin; k < row.terms.velocity_end; ++k) {
-      r[row.row] += velocities_[at(k)].sign * a_[at(velocities_[at(k)].index)];
-    }
-  }
-  for (const std::size_t k : varying_) {
-    const double rate = slip_side_[k] * inputs_->box(k).at(slip_side_[k]).sliding.derivative;
+  loops_.add_time_derivative(a_, differential_, r);
+  for (const std::size_t k : slip_.varying()) {
+    const double rate = slip_.side(k) * inputs_->box(k).at(slip_.side(k)).sliding.derivative;
     add(structure_->sliders[k].a, rate);
     add(structure_->sliders[k].b, -rate);
   }

@@ -16,8 +16,8 @@ void Dae::share_among_joined(double t) {
   };
   for (std::size_t j = 0; j < index_.deflection.size(); ++j) add(network_->deflections[j], view_.f[j]);
   for (std::size_t r = 0; r < index_.force.size(); ++r) add(network_->rates[r], index_.force[r] >= 0 ? rate_in_[r] : rate_out_[r]);
-  for (std::size_t k = 0; k < slip_force_.size(); ++k) {
-    if (slip_force_[k] != 0) add(network_->sliders[k].branch, slip_force_[k]);
+  for (std::size_t k = 0; k < slip_.force().size(); ++k) {
+    if (slip_.force()[k] != 0) add(network_->sliders[k].branch, slip_.force()[k]);
   }
   for (std::size_t k = 0; k < network_->forces.size(); ++k) {
     const Network::Force& f = network_->forces[k];
@@ -35,10 +35,10 @@ void Dae::share_among_joined(double t) {
   }
   for (std::size_t k = 0; k < network_->trains.size(); ++k) {
     const Network::Train& train = network_->trains[k];
-    for (std::size_t i = 0; i < train.node.size(); ++i) left[at(train.node[i])] += train_forces_[k][i] * view_.train_force[k];
+    for (std::size_t i = 0; i < train.node.size(); ++i) left[at(train.node[i])] += slip_.train_forces()[k][i] * view_.train_force[k];
   }
   stick_forces_.solve(t, left, view_.slider_force, view_.train_force);
-  for (std::size_t k = 0; k < slip_force_.size(); ++k) {
+  for (std::size_t k = 0; k < slip_.force().size(); ++k) {
     if (structure_->stuck[k]) add(network_->sliders[k].branch, view_.slider_force[k]);
   }
 }
@@ -58,7 +58,7 @@ const Dae::View& Dae::view(double t, const double* y, const double* yp) {
   }
   std::fill(view_.train_force.begin(), view_.train_force.end(), 0.0);
   if (inertia_.coupled()) {
-    if (train_shares_) inertia_.take_train_forces(train_forces_);
+    if (slip_.shares_vary()) inertia_.take_train_forces(slip_.train_forces());
     for (std::size_t n = 0; n < v_.size(); ++n) work_[n] = view_.applied[n] - view_.nodal[n];
     inertia_.accelerate(work_, view_.acceleration, view_.train_force);
   }
@@ -72,12 +72,11 @@ const Dae::View& Dae::view(double t, const double* y, const double* yp) {
     share_among_joined(t);
     inputs_->transmit(view_.train_force);
   }
-  for (std::size_t k = 0; k < slip_force_.size(); ++k) {
+  for (std::size_t k = 0; k < slip_.force().size(); ++k) {
     const Branch& b = structure_->sliders[k];
     view_.slider_velocity[k] = structure_->stuck[k] ? 0 : view_.velocity[at(b.a)] - view_.velocity[at(b.b)];
     if (structure_->stuck[k]) continue;
-    view_.slider_force[k] = slip_force_[k];
-    if (const int train = network_->sliders[k].train; train >= 0) view_.slider_force[k] = loss_lines_[at(train)].at(view_.train_force[at(train)]) - view_.train_force[at(train)];
+    view_.slider_force[k] = slip_.force(k, view_.train_force);
   }
   for (std::size_t r = 0; r < index_.force.size(); ++r) {
     view_.rate_velocity[r] = index_.force[r] >= 0 ? rate_out_[r] : rate_in_[r];
@@ -157,7 +156,7 @@ void Dae::balance_loose_dashpots() {
   };
   for (std::size_t j = 0; j < view_.f.size(); ++j) add(structure_->deflections[j], view_.f[j]);
   for (std::size_t r = 0; r < rate_in_.size(); ++r) add(structure_->rates[r], index_.force[r] >= 0 ? rate_in_[r] : rate_out_[r]);
-  for (std::size_t k = 0; k < slip_force_.size(); ++k) add(structure_->sliders[k], slip_force_[k]);
+  for (std::size_t k = 0; k < slip_.force().size(); ++k) add(structure_->sliders[k], slip_.force()[k]);
   loose_dashpots_.balance({magnitude, view_.applied, v_}, rate_out_, view_.nodal);
 }
 

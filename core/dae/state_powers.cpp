@@ -21,7 +21,7 @@ double StatePowers::reaction(NodeId node) const {
   for (std::size_t k = 0; k < network_.trains.size(); ++k) {
     const Network::Train& train = network_.trains[k];
     for (std::size_t i = 0; i < train.node.size(); ++i) {
-      if (train.node[i] == node) force += dae_.train_forces()[k][i] * view_.train_force[k];
+      if (train.node[i] == node) force += dae_.slip().train_forces()[k][i] * view_.train_force[k];
     }
   }
   return force;
