@@ -6,8 +6,6 @@
 #include <cmath>
 #include <utility>
 
-#include "core/dae/contacts.hpp"
-
 namespace rheonet {
 
 namespace {
@@ -86,6 +84,13 @@ void reserve_rates(const Structure& structure, const UnknownIndices& index, Jaco
   }
 }
 
+/// Laws of rate branches whose force is an unknown are needed as w = rate(f).
+void set_rate_forms(const Network& network, const UnknownIndices& index) {
+  for (const Laws<RateBatch>& laws : network.rate_laws) {
+    for (std::size_t i = 0; i < laws.batch->size(); ++i) laws.batch->set_by_force(i, index.force[at(laws.first) + i] >= 0);
+  }
+}
+
 }  // namespace
 
 Dae::Dae(const Network& network, const Structure& structure, Inputs& inputs, const std::vector<char>& needed)
@@ -100,16 +105,16 @@ Dae::Dae(const Network& network, const Structure& structure, Inputs& inputs, con
       slip_(network, structure, inputs),
       loops_(network, structure, positions_, inputs, index_, sliding_modes_.moving()),
       pivots_(index_, slip_),
-      blocks_(network, structure, inputs, index_, slip_) {
+      blocks_(network, structure, inputs, index_, slip_),
+      sensors_(network, structure, inputs, index_),
+      driven_(structure, inputs),
+      places_(network, structure, inputs, positions_, index_) {
   const std::size_t nodes = network.nodes(), nd = network.deflections.size(), nr = network.rates.size();
   for (const Laws<RateBatch>& laws : network.rate_laws) {
     for (std::size_t i = 0; i < laws.batch->size(); ++i) rough_ = rough_ || laws.batch->growth(i).exponent != 1;
   }
-  offset_.assign(nd, 0);
-  driven_from_ = offset_;
-  slider_shift_.assign(network.sliders.size(), 0);
-  tied_sum_.assign(structure.tied.size(), 0);
-  view_.slider_velocity = view_.slider_force = slider_shift_;
+  view_.slider_velocity.assign(network.sliders.size(), 0);
+  view_.slider_force = view_.slider_velocity;
   v_.assign(nodes, 0);
   a_.assign(nodes, 0);
   work_ = a_;
@@ -154,30 +159,17 @@ void Dae::build_pattern() {
 }
 
 void Dae::enter(double t, const State& state, const Modes& modes, std::vector<double>& y) {
-  set_rate_forms();
+  set_rate_forms(*network_, index_);
   update_holds();
   inputs_->evaluate(t);
-  offset_ = state.offset;
   slip_.enter(modes);
-  for (std::size_t k = 0; k < slider_shift_.size(); ++k) {
-    const Branch& b = network_->sliders[k].branch;
-    slider_shift_[k] = network_->sliders[k].contact ? rheonet::displacement(network_->sliders[k], state) : state.position[at(b.a)] - state.position[at(b.b)];
-  }
   y.assign(at(size()), 0);
   for (std::size_t j = 0; j < index_.deflection.size(); ++j) {
-    const Branch& b = structure_->deflections[j];
-    if (index_.deflection[j] >= 0) {
-      y[at(index_.deflection[j])] = state.p[j];
-    } else {
-      driven_from_[j] = state.p[j] - known_way(b, t);
-    }
+    if (index_.deflection[j] >= 0) y[at(index_.deflection[j])] = state.p[j];
   }
-  const std::vector<double> place = places(state);
-  for (const NodeId node : positions_.order) {
-    if (const int r = positions_.of[at(node)].tied; r >= 0) tied_sum_[at(r)] = sum_of(structure_->tied[at(r)], place);
-  }
+  driven_.enter(t, state);
+  places_.enter(state, y.data());
   for (std::size_t n = 0; n < index_.velocity.size(); ++n) {
-    if (index_.position[n] >= 0) y[at(index_.position[n])] = state.position[n] - place[at(positions_.of[n].parent)];
     if (index_.velocity[n] < 0) continue;
     const int group = structure_->group[n];
     const double base = group < 0 ? 0 : state.velocity[at(structure_->groups[at(group)].nodes.front())];
@@ -187,39 +179,12 @@ void Dae::enter(double t, const State& state, const Modes& modes, std::vector<do
   guess_forces(t, y.data());
 }
 
-/// Positions as the view computes them. The state lacks the position of a node that was not requested, but that another
-/// position is counted from in these modes.
-std::vector<double> Dae::places(const State& state) const {
-  std::vector<double> place = state.position;
-  for (std::size_t m = 0; m < network_->motions.size(); ++m) {
-    if (network_->motions[m].block < 0) place[at(network_->motions[m].node)] = inputs_->position[m];
-  }
-  for (const NodeId node : positions_.order) {
-    const Position& x = positions_.of[at(node)];
-    if (x.integrated || x.branch < 0) continue;
-    place[at(node)] = place[at(x.parent)] + x.sign * (state.p[at(x.branch)] + offset_[at(x.branch)]);
-  }
-  return place;
-}
-
-double Dae::sum_of(const Structure::Tied& tied, const std::vector<double>& position) {
-  double sum = position[at(tied.pivot)];
-  for (const auto& [node, factor] : tied.terms) sum += factor * position[at(node)];
-  return sum;
-}
-
 void Dae::leave(State& state) const {
   state.velocity = view_.velocity;
   state.p = view_.p;
   state.train_force = view_.train_force;
   for (std::size_t k = 0; k < index_.block.size(); ++k) state.blocks[k] = inputs_->blocks().state[k].value;
   for (NodeId node : positions_.order) state.position[at(node)] = view_.position[at(node)];
-}
-
-void Dae::set_rate_forms() {
-  for (const Laws<RateBatch>& laws : network_->rate_laws) {
-    for (std::size_t i = 0; i < laws.batch->size(); ++i) laws.batch->set_by_force(i, index_.force[at(laws.first) + i] >= 0);
-  }
 }
 
 void Dae::update_holds() {
@@ -237,6 +202,13 @@ void Dae::enter_sliding_modes(double t, const double* y, const double* yp, const
   view(t, y, yp);
   sliding_modes_.enter(sliding_modes, view_.p, view_.f);
   update_holds();
+}
+
+void Dae::choose_limits(double t, const double* y, const double* yp) {
+  const BlockSignals& blocks = inputs_->blocks();
+  if (blocks.limits().empty() && !blocks.has_functions()) return;
+  view(t, y, yp);
+  sensors_.choose_sides();
 }
 
 }  // namespace rheonet

@@ -5,12 +5,15 @@
 
 #include "core/base/index.hpp"
 #include "core/dae/block_entries.hpp"
+#include "core/dae/block_sensors.hpp"
+#include "core/dae/driven_deflections.hpp"
 #include "core/dae/inertia_matrix.hpp"
 #include "core/dae/inputs.hpp"
 #include "core/dae/jacobian_entries.hpp"
 #include "core/dae/loop_equations.hpp"
 #include "core/dae/loose_dashpots.hpp"
 #include "core/dae/matrix.hpp"
+#include "core/dae/node_positions.hpp"
 #include "core/dae/pivot_rows.hpp"
 #include "core/dae/positions.hpp"
 #include "core/dae/sliding_mode.hpp"
@@ -106,10 +109,8 @@ class Dae {
     const Viewed& last = viewed_;
     return last.y == y && last.yp == yp && last.t == t ? view_ : view(t, y, yp);
   }
-  /// Displacement of a branch that does not creep, to the last digit of its deflection. After `view`.
-  double displacement(int branch) const { return view_.p[at(branch)] + offset_[at(branch)]; }
-  /// Deflection at t of a branch between two prescribed nodes, which is no unknown [m].
-  double driven_deflection(int branch, double t) const;
+  const DrivenDeflections& driven() const { return driven_; }
+  const NodePositions& places() const { return places_; }
 
   /// Some algebraic unknown may change like the square root of time (a power law at rest): no polynomial approximates it, and
   /// its error says nothing of the errors of other unknowns.
@@ -137,11 +138,6 @@ class Dae {
   void choose_limits(double t, const double* y, const double* yp);
 
  private:
-  void move_by_blocks(const double* y);
-  double acceleration_by(const Network::Motion& motion) const;
-  double known_acceleration(NodeId node) const;
-  void feel_blocks(const double* y);
-
   /// All motions are given, but IDA needs an equation: y' = 0 costs nothing.
   bool idle() const { return index_.count == 0; }
   void build_pattern();
@@ -157,12 +153,7 @@ class Dae {
   // state_evaluation.cpp
   void share_among_joined(double t);
   void view_velocities(const double* yp);
-  std::vector<double> places(const State& state) const;
-  static double sum_of(const Structure::Tied& tied, const std::vector<double>& position);
-  void set_rate_forms();
   void stiffen_resting_laws();
-  double held_force(const Branch& ends) const;
-  double known_way(const Branch& ends, double t) const;
 
   const Network* network_;
   const Structure* structure_;
@@ -177,14 +168,12 @@ class Dae {
   JacobianEntries jacobian_;
   PivotRows pivots_;
   BlockEntries blocks_;
+  BlockSensors sensors_;
+  DrivenDeflections driven_;
+  NodePositions places_;
   bool rough_ = false, follows_time_ = false, secants_ = false;
   std::vector<char> differential_;         ///< For each row.
   std::vector<char> differentiated_;       ///< For each unknown.
-
-  std::vector<double> offset_;  ///< Displacement less deflection of each deflection branch that does not creep.
-  std::vector<double> driven_from_;    ///< For each driven branch: its deflection at the last `enter` or `mark` of the inputs [m].
-  std::vector<double> slider_shift_;   ///< Displacement of each sticking slider.
-  std::vector<double> tied_sum_;       ///< For each equation of a train: the sum of the positions of its nodes, times their factors [m].
   // Work space of the residual.
   std::vector<double> work_, v_, a_, rate_in_, rate_out_, rate_d_, df_, dc_;
   View view_;

@@ -7,15 +7,19 @@
 
 namespace rheonet {
 
-/// Relative displacement of the ends of a branch due to prescribed motions since the last event. It is computed without
-/// positions, which may be large beside a deflection: their difference would round it.
-double Dae::known_way(const Branch& ends, double t) const {
-  const auto way = [&](NodeId node) {
-    const int motion = structure_->motion[at(node)];
-    return motion < 0 ? 0 : inputs_->way(motion, t);
-  };
-  return way(ends.a) - way(ends.b);
+namespace {
+
+/// Largest force of the laws that are held at rest between these ends [N].
+double held_force(const Structure& structure, const std::vector<double>& moving, const std::vector<double>& f, const Branch& ends) {
+  double largest = 0;
+  for (std::size_t j = 0; j < moving.size(); ++j) {
+    const Branch& b = structure.deflections[j];
+    if (moving[j] == 0 && std::minmax(b.a, b.b) == std::minmax(ends.a, ends.b)) largest = std::max(largest, std::abs(f[j]));
+  }
+  return largest;
 }
+
+}  // namespace
 
 /// Gathers velocities, deflections, and the arguments of the rate laws.
 void Dae::gather(double t, const double* y) {
@@ -24,21 +28,20 @@ void Dae::gather(double t, const double* y) {
   for (std::size_t n = 0; n < v_.size(); ++n) {
     if (index_.velocity[n] >= 0) v_[n] = y[index_.velocity[n]];
   }
-  move_by_blocks(y);
+  sensors_.move_nodes(y);
   for (std::size_t m = 0; m < network_->motions.size(); ++m) {
     const std::size_t node = at(network_->motions[m].node);
     v_[node] = inputs_->velocity[m];
     a_[node] = inputs_->acceleration[m];
   }
   for (std::size_t j = 0; j < index_.deflection.size(); ++j) {
-    const Branch& b = structure_->deflections[j];
-    view_.p[j] = index_.deflection[j] >= 0 ? y[index_.deflection[j]] : driven_from_[j] + known_way(b, t);
+    view_.p[j] = index_.deflection[j] >= 0 ? y[index_.deflection[j]] : driven_.deflection(j, t);
   }
   for (std::size_t r = 0; r < index_.force.size(); ++r) {
     const Branch& b = structure_->rates[r];
     rate_in_[r] = index_.force[r] >= 0 ? y[index_.force[r]] : v_[at(b.a)] - v_[at(b.b)];
   }
-  if (inputs_->blocks().any()) feel_blocks(y);
+  if (inputs_->blocks().any()) sensors_.feel(y, {v_, view_.p, rate_in_});
   slip_.follow();
 }
 
@@ -84,7 +87,7 @@ void Dae::balances(const double* yp, double* r) const {
   for (std::size_t k = 0; k < structure_->inerters.size(); ++k) {
     const Branch& b = structure_->inerters[k];
     if (b.a == b.b) continue;
-    const auto acceleration = [&](NodeId node) { return index_.velocity[at(node)] >= 0 ? yp[index_.velocity[at(node)]] : known_acceleration(node); };
+    const auto acceleration = [&](NodeId node) { return index_.velocity[at(node)] >= 0 ? yp[index_.velocity[at(node)]] : sensors_.acceleration(node, a_, v_); };
     const double f = network_->inerters[k].inertance * (acceleration(b.a) - acceleration(b.b));
     if (index_.velocity[at(b.a)] >= 0) r[index_.velocity[at(b.a)]] += f;
     if (index_.velocity[at(b.b)] >= 0) r[index_.velocity[at(b.b)]] -= f;
@@ -209,7 +212,7 @@ void Dae::stiffen_resting_laws() {
       const std::size_t r = at(laws.first) + i;
       if (secants_ && rate_in_[r] != 0) rate_d_[r] = std::max(rate_d_[r], rate_out_[r] / rate_in_[r]);
       if (any_held && index_.force[r] >= 0 && rate_in_[r] != 0) {
-        const double lost = numerics::equation_roundoff * held_force(structure_->rates[r]);
+        const double lost = numerics::equation_roundoff * held_force(*structure_, moving, view_.f, structure_->rates[r]);
         if (std::abs(rate_in_[r]) < lost) rate_d_[r] = std::max(rate_d_[r], laws.batch->velocity_at(i, lost) / lost);
       }
       if (rate_d_[r] != 0) continue;
@@ -227,17 +230,6 @@ void Dae::stiffen_resting_laws() {
       rate_d_[r] = index_.force[r] >= 0 ? w / f : f / w;
     }
   }
-}
-
-/// Largest force of the laws that are held at rest between these ends [N].
-double Dae::held_force(const Branch& ends) const {
-  const std::vector<double>& moving = sliding_modes_.moving();
-  double largest = 0;
-  for (std::size_t j = 0; j < moving.size(); ++j) {
-    const Branch& b = structure_->deflections[j];
-    if (moving[j] == 0 && std::minmax(b.a, b.b) == std::minmax(ends.a, ends.b)) largest = std::max(largest, std::abs(view_.f[j]));
-  }
-  return largest;
 }
 
 void Dae::guess_forces(double t, double* y) {

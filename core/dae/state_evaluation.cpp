@@ -54,7 +54,7 @@ const Dae::View& Dae::view(double t, const double* y, const double* yp) {
     }
   }
   for (const Network::Motion& m : network_->motions) {
-    if (m.block >= 0) view_.acceleration[at(m.node)] = known_acceleration(m.node);
+    if (m.block >= 0) view_.acceleration[at(m.node)] = sensors_.acceleration(m.node, a_, v_);
   }
   std::fill(view_.train_force.begin(), view_.train_force.end(), 0.0);
   if (inertia_.coupled()) {
@@ -82,27 +82,7 @@ const Dae::View& Dae::view(double t, const double* y, const double* yp) {
     view_.rate_velocity[r] = index_.force[r] >= 0 ? rate_out_[r] : rate_in_[r];
     view_.rate_force[r] = index_.force[r] >= 0 ? rate_in_[r] : rate_out_[r];
   }
-  for (std::size_t m = 0; m < network_->motions.size(); ++m) {
-    if (network_->motions[m].block < 0) view_.position[at(network_->motions[m].node)] = inputs_->position[m];
-  }
-  for (NodeId node : positions_.order) {
-    const Position& x = positions_.of[at(node)];
-    double& position = view_.position[at(node)];
-    const double parent = view_.position[at(x.parent)];
-    if (x.integrated) {
-      position = parent + y[index_.position[at(node)]];
-    } else if (x.branch >= 0) {
-      position = parent + x.sign * (view_.p[at(x.branch)] + offset_[at(x.branch)]);
-    } else if (x.slider >= 0) {
-      position = parent + x.sign * slider_shift_[at(x.slider)];
-    } else if (x.tied >= 0) {
-      const Structure::Tied& tied = structure_->tied[at(x.tied)];
-      const auto own = std::find_if(tied.terms.begin(), tied.terms.end(), [&](const Structure::Tied::Term& term) { return term.node == node; });
-      const double factor = own == tied.terms.end() ? 1 : own->factor;
-      position = 0;
-      position = (tied_sum_[at(x.tied)] - sum_of(tied, view_.position)) / factor;
-    }
-  }
+  places_.evaluate(view_.p, y, view_.position);
   viewed_ = {t, y, yp};
   return view_;
 }
@@ -132,10 +112,6 @@ void Dae::view_velocities(const double* yp) {
     const Branch& b = structure_->deflections[at(d.branch)];
     view_.flow[at(d.branch)] = view_.velocity[at(b.a)] - view_.velocity[at(b.b)];
   }
-}
-
-double Dae::driven_deflection(int branch, double t) const {
-  return driven_from_[at(branch)] + known_way(structure_->deflections[at(branch)], t);
 }
 
 const std::vector<double>& Dae::slopes() {
