@@ -71,7 +71,7 @@ SteadyStateSolver::Forces SteadyStateSolver::forces_at_start() {
     const Network::Slider& s = network_.sliders[k];
     if (slip_[k] == 0) {
       forces.hang.join(s.branch.a, s.branch.b);
-      if (!is_rigid_link(s) && !has_contact(k)) forces.sticking.push_back(network_.name_of(s.branch));
+      if (!is_rigid_link(s) && !network_.sliders[k].contact) forces.sticking.push_back(network_.name_of(s.branch));
     }
   }
   return forces;
@@ -137,17 +137,17 @@ bool SteadyStateSolver::find_positions() {
     const ConvexNetwork::Outcome outcome = problem.solve();
     state_.train_force = problem.forces_of_equations();
     again = !agree(trials);
-    if (!again) refuse_unbalanced(problem, outcome, std::numeric_limits<double>::infinity());
+    if (!again) report_.refuse_unbalanced(problem, outcome, std::numeric_limits<double>::infinity());
     if (outcome != ConvexNetwork::Outcome::solved || n >= numerics::contact_iterations) continue;
     for (std::size_t k = 0; k < slip_.size(); ++k) {
-      if (!has_contact(k) || slider_branch[k] < 0) continue;
+      if (!network_.sliders[k].contact || slider_branch[k] < 0) continue;
       const Branch& b = network_.sliders[k].branch;
       again = contacts_.press(k, problem.difference(slot(b.a), slot(b.b)), problem.force(slider_branch[k])) || again;
     }
   }
   std::vector<int> slid(slip_.size(), 0), direction = slip_;
   for (std::size_t k = 0; k < slip_.size(); ++k) {
-    if (slip_[k] != 0 || has_contact(k)) continue;
+    if (slip_[k] != 0 || network_.sliders[k].contact) continue;
     direction[k] = slid[k] = problem.motion(slider_branch[k]);
   }
   if (friction_.break_away(slid)) return false;
@@ -204,7 +204,7 @@ void SteadyStateSolver::take_positions(const ConvexNetwork& problem) {
     }
   }
   for (std::size_t k = 0; k < slip_.size(); ++k) {
-    if (has_contact(k) && network_.contact_of(network_.sliders[k]) == 0) result_.modes.slider[k] = Modes::forward;
+    if (network_.sliders[k].contact && network_.contact_of(network_.sliders[k]) == 0) result_.modes.slider[k] = Modes::forward;
   }
   for (std::size_t n = 0; n < velocity_.size(); ++n) {
     state_.position[n] += moved(static_cast<NodeId>(n));

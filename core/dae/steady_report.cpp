@@ -9,6 +9,7 @@
 #include "core/base/format_list.hpp"
 #include "core/base/index.hpp"
 #include "core/base/numerics.hpp"
+#include "core/network/overload_report.hpp"
 
 namespace rheonet {
 
@@ -99,6 +100,18 @@ void SteadyReport::refuse_motion(const std::vector<double>& velocity) const {
         "less force",
         refusal(), network_.node_name(static_cast<NodeId>(n)), velocity_of(network_.node(static_cast<NodeId>(n)), velocity[n])));
   }
+}
+
+void SteadyReport::refuse_unbalanced(const ConvexNetwork& problem, ConvexNetwork::Outcome outcome, double far) const {
+  if (outcome == ConvexNetwork::Outcome::solved) return;
+  std::vector<NodeId> nodes;
+  for (std::size_t n = 0; n < structure_.rank.size(); ++n) {
+    const int own = structure_.rank[n];
+    const bool ran = std::find(problem.runaways().begin(), problem.runaways().end(), own) != problem.runaways().end();
+    if (ran || std::abs(problem.value(own)) > far) nodes.push_back(static_cast<NodeId>(n));
+  }
+  if (!nodes.empty()) refuse_acceleration(nodes);
+  report_undecided(network_, refusal() + ":");
 }
 
 }  // namespace rheonet

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "core/dae/convex.hpp"
 #include "core/network/structure.hpp"
 
 namespace rheonet {
@@ -21,6 +22,8 @@ class SteadyReport {
   const std::vector<std::string>& notes() const { return notes_; }
   /// Throws SimulationError: the loads on these nodes accelerate them for ever.
   [[noreturn]] void refuse_acceleration(std::vector<NodeId> nodes) const;
+  /// Throws SimulationError for a problem without a solution; values beyond `far` have run away.
+  void refuse_unbalanced(const ConvexNetwork& problem, ConvexNetwork::Outcome outcome, double far) const;
   /// Throws SimulationError for prescribed nodes of different velocities that rigid branches join: these would stretch for ever.
   void refuse_stretching(const std::vector<Branch>& rigid, const std::vector<double>& velocity) const;
   /// Throws SimulationError for trains whose ends springs or motions hold at velocities that do not fit.

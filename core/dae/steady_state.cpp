@@ -17,6 +17,7 @@ SteadyStateSolver::SteadyStateSolver(const Network& network, const Structure& cl
       block_trials_(network, begin.inputs, t),
       friction_(network, begin.inputs, block_trials_.trial()),
       contacts_(network, begin.state),
+      groups_(classified),
       velocity_(classified.kind.size(), 0),
       load_(velocity_),
       load_magnitude_(velocity_) {
@@ -114,7 +115,7 @@ void SteadyStateSolver::hold_what_is_free() {
     }
     if (std::abs(load) > numerics::balance_roundoff * magnitude) report_.refuse_acceleration(nodes);
     free.place(node);
-    pinned_.push_back(node);
+    groups_.pin(node);
     if (!report_.resting() && mass > 0) velocity_[at(node)] = momentum / mass;
     report_.note(fmt::format("nothing joins node `{}` to ground or to a motion: it moves at {}",
                      network_.node_name(node), with_unit(*network_.scene, network_.node(node), velocity_[at(node)], Quantity::velocity)));

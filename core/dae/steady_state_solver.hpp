@@ -19,6 +19,7 @@
 #include "core/dae/steady_report.hpp"
 #include "core/dae/steady_state.hpp"
 #include "core/dae/train_force_trials.hpp"
+#include "core/dae/velocity_groups.hpp"
 #include "core/network/rigid_links.hpp"
 
 namespace rheonet {
@@ -51,14 +52,6 @@ class SteadyStateSolver {
     return std::abs(w) <= numerics::equal_values * std::max(std::abs(va), std::abs(vb)) ? 0 : w;
   }
   int slot(NodeId node) const { return structure_.rank[at(node)]; }
-  /// Slot of the node that represents all nodes that move with this one.
-  int leader(NodeId node) const { return slot(leader_[at(node)]); }
-  bool together(const Branch& b) const { return leader_[at(b.a)] == leader_[at(b.b)]; }
-  bool held(NodeId node) const {
-    return known(node) || std::find(pinned_.begin(), pinned_.end(), node) != pinned_.end();
-  }
-
-  bool has_contact(std::size_t slider) const { return network_.sliders[slider].contact.has_value(); }
   /// Springs, and sliders that no force makes slip.
   std::vector<Branch> rigid_branches() const;
 
@@ -68,7 +61,6 @@ class SteadyStateSolver {
   void note_what_gave_way();
 
   // steady_velocities.cpp
-  void lead(DisjointSets& sets);
   bool find_velocities();
   bool agree(TrainForceTrials& trials);
   ConvexNetwork velocity_problem() const;
@@ -80,7 +72,6 @@ class SteadyStateSolver {
   void add_steady_sliders(ConvexNetwork& problem, std::vector<int>& branch_of) const;
   void add_rates(ConvexNetwork& problem, double scale) const;
   double natural_speed(double force) const;
-  void refuse_unbalanced(const ConvexNetwork& problem, ConvexNetwork::Outcome outcome, double far) const;
   void take_velocities(const ConvexNetwork& problem);
   bool refine_velocities(double scale, TrainForceTrials& trials);
 
@@ -101,11 +92,10 @@ class SteadyStateSolver {
   BlockTrials block_trials_;
   SteadyFriction friction_;
   SteadyContacts contacts_;
+  VelocityGroups groups_;
   std::vector<Law> laws_;         ///< One for each deflection branch.
   std::vector<double> velocity_;  ///< For each node.
   std::vector<double> load_, load_magnitude_;  ///< Applied at each node.
-  std::vector<NodeId> leader_;    ///< For each node: the node that represents all that move with it.
-  std::vector<NodeId> pinned_;    ///< Their velocity is given because nothing else determines it.
   std::vector<int> slip_;         ///< For each slider: its direction.
   double largest_load_ = 0;
   TrainForceTrials trials_{network_, inputs_, std::vector<double>(network_.trains.size(), 0), 0};  ///< Trials for the balance at the velocities.

@@ -19,25 +19,12 @@ std::vector<Branch> SteadyStateSolver::rigid_branches() const {
   return result;
 }
 
-/// Chooses the node that represents each set: one whose velocity is given if there is one.
-void SteadyStateSolver::lead(DisjointSets& sets) {
-  std::vector<NodeId> first(velocity_.size(), -1);
-  for (const bool given : {true, false}) {
-    for (std::size_t n = 0; n < velocity_.size(); ++n) {
-      NodeId& leader = first[at(sets.find(static_cast<NodeId>(n)))];
-      if (leader < 0 && held(static_cast<NodeId>(n)) == given) leader = static_cast<NodeId>(n);
-    }
-  }
-  leader_.resize(velocity_.size());
-  for (std::size_t n = 0; n < velocity_.size(); ++n) leader_[n] = first[at(sets.find(static_cast<NodeId>(n)))];
-}
-
 /// Finds the velocities at which all forces balance when springs are rigid, friction has its full force in motion, and nothing
 /// accelerates. False if sliders have broken away under more than their sliding force, or if losses of trains have new bounds.
 bool SteadyStateSolver::find_velocities() {
   DisjointSets rigid(velocity_.size());
   for (const Branch& b : rigid_branches()) rigid.join(b.a, b.b);
-  lead(rigid);
+  groups_.take(rigid);
   double scale = largest_load_;
   for (const Law& law : laws_) {
     for (double f : {law.steady.rest, law.steady.bound}) scale = std::isfinite(f) ? std::max(scale, f) : scale;
@@ -65,7 +52,7 @@ bool SteadyStateSolver::find_velocities() {
   // The losses at trial forces may be too small to hold the load: only forces that agree with their losses show an overload.
   state_.train_force = problem.forces_of_equations();
   if (!agree(trials_)) return false;
-  refuse_unbalanced(problem, outcome, numerics::unresisted_speed * natural_speed(scale));
+  report_.refuse_unbalanced(problem, outcome, numerics::unresisted_speed * natural_speed(scale));
   slip_.assign(network_.sliders.size(), 0);
   for (std::size_t k = 0; k < slip_.size(); ++k) {
     slip_[k] = slider_branch[k] < 0 ? 0 : problem.motion(slider_branch[k]);
@@ -93,7 +80,7 @@ void SteadyStateSolver::add_steady_laws(ConvexNetwork& problem, std::vector<int>
   for (std::size_t j = 0; j < laws_.size(); ++j) {
     const Branch& b = network_.deflections[j];
     const DeflectionBatch::Steady& s = laws_[j].steady;
-    if (together(b)) continue;
+    if (groups_.together(b)) continue;
     ConvexNetwork::Law law{.low = -s.rest, .high = s.rest, .backward = s.slope, .forward = s.slope};
     if (s.slope > 0 && std::isfinite(s.bound)) {
       law.beyond = [s](double w, double& slope) {
@@ -102,7 +89,7 @@ void SteadyStateSolver::add_steady_laws(ConvexNetwork& problem, std::vector<int>
         return std::clamp(f, -s.bound, s.bound);
       };
     }
-    branch_of[j] = problem.add(leader(b.a), leader(b.b), law);
+    branch_of[j] = problem.add(groups_.slot(b.a), groups_.slot(b.b), law);
   }
 }
 
@@ -110,7 +97,7 @@ void SteadyStateSolver::add_steady_sliders(ConvexNetwork& problem, std::vector<i
   branch_of.assign(network_.sliders.size(), -1);
   for (std::size_t k = 0; k < network_.sliders.size(); ++k) {
     const Network::Slider& s = network_.sliders[k];
-    if (together(s.branch)) continue;
+    if (groups_.together(s.branch)) continue;
     ConvexNetwork::Law law{.low = -friction_.bound(k, -1), .high = friction_.bound(k, 1)};
     if (friction_.follows_speed(k) && (s.train < 0 || friction_.losses_known())) {
       law.beyond = [this, k, tangents = std::array{friction_.around(k, -1, 0), friction_.around(k, 1, 0)}](double w, double& slope) {
@@ -120,7 +107,7 @@ void SteadyStateSolver::add_steady_sliders(ConvexNetwork& problem, std::vector<i
         return side * of.at(side * w);
       };
     }
-    branch_of[k] = problem.add(leader(s.branch.a), leader(s.branch.b), std::move(law));
+    branch_of[k] = problem.add(groups_.slot(s.branch.a), groups_.slot(s.branch.b), std::move(law));
   }
 }
 
@@ -136,14 +123,14 @@ ConvexNetwork SteadyStateSolver::velocity_problem() const {
   ConvexNetwork problem(static_cast<int>(velocity_.size()));
   for (std::size_t n = 0; n < velocity_.size(); ++n) {
     const NodeId node = static_cast<NodeId>(n);
-    if (leader_[n] != node) {
+    if (groups_.leader(node) != node) {
       problem.fix(slot(node), 0);  // its leader represents it
-    } else if (held(node)) {
+    } else if (groups_.held(node)) {
       problem.fix(slot(node), velocity_[n]);
     }
-    if (load_[n] != 0) problem.load(leader(node), load_[n]);
+    if (load_[n] != 0) problem.load(groups_.slot(node), load_[n]);
   }
-  add_trains(problem, [&](NodeId node) { return leader(node); });
+  add_trains(problem, [&](NodeId node) { return groups_.slot(node); });
   return problem;
 }
 
@@ -153,9 +140,9 @@ void SteadyStateSolver::add_rates(ConvexNetwork& problem, double scale) const {
   for (const Laws<RateBatch>& laws : network_.rate_laws) {
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {
       const Branch& b = network_.rates[at(laws.first) + i];
-      if (together(b)) continue;
+      if (groups_.together(b)) continue;
       const double force = scale > 0 ? scale : coming_force(*laws.batch, i, reach);
-      problem.add(leader(b.a), leader(b.b), rate_law(*laws.batch, i, force));
+      problem.add(groups_.slot(b.a), groups_.slot(b.b), rate_law(*laws.batch, i, force));
     }
   }
 }
@@ -173,21 +160,8 @@ double SteadyStateSolver::natural_speed(double force) const {
   return speed;
 }
 
-/// Refuses a problem without a solution; values beyond `far` have run away.
-void SteadyStateSolver::refuse_unbalanced(const ConvexNetwork& problem, ConvexNetwork::Outcome outcome, double far) const {
-  if (outcome == ConvexNetwork::Outcome::solved) return;
-  std::vector<NodeId> nodes;
-  for (std::size_t n = 0; n < structure_.rank.size(); ++n) {
-    const int own = structure_.rank[n];
-    const bool ran = std::find(problem.runaways().begin(), problem.runaways().end(), own) != problem.runaways().end();
-    if (ran || std::abs(problem.value(own)) > far) nodes.push_back(static_cast<NodeId>(n));
-  }
-  if (!nodes.empty()) report_.refuse_acceleration(nodes);
-  report_undecided(network_, report_.refusal() + ":");
-}
-
 void SteadyStateSolver::take_velocities(const ConvexNetwork& problem) {
-  for (std::size_t n = 0; n < velocity_.size(); ++n) velocity_[n] = problem.value(leader(static_cast<NodeId>(n)));
+  for (std::size_t n = 0; n < velocity_.size(); ++n) velocity_[n] = problem.value(groups_.slot(static_cast<NodeId>(n)));
 }
 
 /// Solves once more, with sticking elements rigid and slipping ones as forces: this removes the effect of regularising slopes.
@@ -200,23 +174,23 @@ bool SteadyStateSolver::refine_velocities(double scale, TrainForceTrials& trials
   for (std::size_t k = 0; k < slip_.size(); ++k) {
     if (slip_[k] == 0) joined.join(network_.sliders[k].branch.a, network_.sliders[k].branch.b);
   }
-  lead(joined);
+  groups_.take(joined);
   ConvexNetwork problem = velocity_problem();
   const auto push = [&](const Branch& b, double f) {
-    problem.load(leader(b.a), -f);
-    problem.load(leader(b.b), f);
+    problem.load(groups_.slot(b.a), -f);
+    problem.load(groups_.slot(b.b), f);
   };
   for (std::size_t j = 0; j < laws_.size(); ++j) {
     const Branch& b = network_.deflections[j];
     const DeflectionBatch::Steady& s = laws_[j].steady;
     const double w = difference(b);
-    if (together(b)) continue;
+    if (groups_.together(b)) continue;
     if (s.rest > 0) {
       push(b, s.rest * laws_[j].direction);
     } else if (std::abs(s.slope * w) >= s.bound) {
       push(b, std::copysign(s.bound, w));
     } else {
-      problem.add(leader(b.a), leader(b.b), {.backward = s.slope, .forward = s.slope});
+      problem.add(groups_.slot(b.a), groups_.slot(b.b), {.backward = s.slope, .forward = s.slope});
     }
   }
   for (std::size_t k = 0; k < slip_.size(); ++k) {
@@ -226,12 +200,12 @@ bool SteadyStateSolver::refine_velocities(double scale, TrainForceTrials& trials
     const SteadyFriction::Curve of = friction_.around(k, slip_[k], difference(b));
     const double slope = of.slope_at(speed);
     push(b, slip_[k] * (of.at(speed) - slope * speed));
-    if (slope > 0) problem.add(leader(b.a), leader(b.b), {.backward = slope, .forward = slope});
+    if (slope > 0) problem.add(groups_.slot(b.a), groups_.slot(b.b), {.backward = slope, .forward = slope});
   }
   add_rates(problem, scale);
   const ConvexNetwork::Outcome outcome = problem.solve();
   // An excess so small that the regularising slopes have balanced it at a high speed.
-  if (outcome == ConvexNetwork::Outcome::unbounded) refuse_unbalanced(problem, outcome, std::numeric_limits<double>::infinity());
+  if (outcome == ConvexNetwork::Outcome::unbounded) report_.refuse_unbalanced(problem, outcome, std::numeric_limits<double>::infinity());
   if (outcome != ConvexNetwork::Outcome::solved) return true;
   take_velocities(problem);
   state_.train_force = problem.forces_of_equations();
