@@ -11,6 +11,12 @@ inline double displacement(const Network::Slider& slider, const State& state) {
   return state.p[gauge] + state.offset[gauge];
 }
 
+/// A rigid stop that is not in contact: it has no force.
+inline bool apart(const Network& network, const Network::Slider& slider) { return slider.contact && network.contact_of(slider) == 0; }
+
+/// How far a slider can go in the direction of `step` before it is in contact [m].
+double way_to_contact(const Network& network, const Network::Slider& slider, double step, const State& state);
+
 /// Ends the contact of a slider.
 void open_contact(const Network& network, const Network::Slider& slider);
 

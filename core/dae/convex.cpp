@@ -17,7 +17,7 @@ constexpr double difference_rounding = numerics::sum_ulps * std::numeric_limits<
 }  // namespace
 
 ConvexNetwork::ConvexNetwork(int nodes)
-    : origin_(at(nodes), 0), base_(origin_), u_(origin_), inertia_(origin_), applied_(origin_), fixed_(at(nodes), 0), tied_(fixed_), given_(origin_), cluster_(at(nodes), 0) {}
+    : origin_(at(nodes), 0), base_(origin_), u_(origin_), inertia_(origin_), applied_(origin_), fixed_(at(nodes), 0), tied_(fixed_), given_(origin_), clusters_(nodes) {}
 
 void ConvexNetwork::fix(int node, double change) {
   fixed_[at(node)] = 1;
@@ -60,26 +60,26 @@ int ConvexNetwork::direction(int branch) const {
 
 double ConvexNetwork::force(int branch) const {
   const Branch& b = branches_[at(branch)];
-  return b.stuck ? bond_force_[at(branch)] : force(b, b.w, b.side);
+  return b.stuck ? bond_force_[at(branch)] : b.force(b.w, b.side);
 }
 
-double ConvexNetwork::force(const Branch& b, double w, int side) const {
-  if (w > 0 || (w == 0 && side > 0)) {
+double ConvexNetwork::Branch::force(double w, int of_side) const {
+  if (w > 0 || (w == 0 && of_side > 0)) {
     double slope;
-    return w > 0 && b.law.beyond ? b.law.beyond(w, slope) + b.weak * w : b.law.high + (b.law.forward + b.weak) * w;
+    return w > 0 && law.beyond ? law.beyond(w, slope) + weak * w : law.high + (law.forward + weak) * w;
   }
   double slope;
-  return w < 0 && b.law.beyond ? b.law.beyond(w, slope) + b.weak * w : b.law.low + (b.law.backward + b.weak) * w;
+  return w < 0 && law.beyond ? law.beyond(w, slope) + weak * w : law.low + (law.backward + weak) * w;
 }
 
-double ConvexNetwork::slope(const Branch& b, double w) const {
-  if (w != 0 && b.law.beyond) {
-    double slope = 0;
-    b.law.beyond(w, slope);
-    return slope + b.weak;
+double ConvexNetwork::Branch::slope(double w) const {
+  if (w != 0 && law.beyond) {
+    double result = 0;
+    law.beyond(w, result);
+    return result + weak;
   }
-  if (w == 0 && !b.jumps) return std::max(b.law.forward, b.law.backward) + b.weak;
-  return (w > 0 || (w == 0 && b.side > 0) ? b.law.forward : b.law.backward) + b.weak;
+  if (w == 0 && !jumps) return std::max(law.forward, law.backward) + weak;
+  return (w > 0 || (w == 0 && side > 0) ? law.forward : law.backward) + weak;
 }
 
 void ConvexNetwork::find_restrained() {
@@ -133,8 +133,6 @@ void ConvexNetwork::choose_weak() {
   }
 }
 
-bool ConvexNetwork::forbids(const Branch& b, double w) { return std::isinf(w < 0 ? b.law.low : b.law.high); }
-
 /// Branches between equal start values stick; massless nodes follow nodes to which they can stick.
 void ConvexNetwork::stick_at_first() {
   const std::size_t n = u_.size();
@@ -169,7 +167,7 @@ void ConvexNetwork::stick_at_first() {
   };
   for (Branch* b : order) {
     const double w = apart(*b);
-    if (w != 0 && !forbids(*b, w) && heavy[at(sets.find(b->a))] && heavy[at(sets.find(b->b))]) {
+    if (w != 0 && !b->forbids(w) && heavy[at(sets.find(b->a))] && heavy[at(sets.find(b->b))]) {
       b->side = w > 0 ? 1 : -1;
     } else {
       stick(*b);
@@ -180,7 +178,7 @@ void ConvexNetwork::stick_at_first() {
     again = false;
     for (Branch* b : order) {
       const double w = b->stuck ? 0 : apart(*b);
-      if (w == 0 || !forbids(*b, w)) continue;
+      if (w == 0 || !b->forbids(w)) continue;
       stick(*b);
       again = true;
     }
@@ -195,25 +193,10 @@ void ConvexNetwork::merge() {
     if (b.stuck) sets.join(b.a, b.b);
   }
   join_by_equations(sets);
-  std::vector<double> weight(u_.size(), -1);
-  head_.assign(u_.size(), -1);
-  for (std::size_t k = 0; k < u_.size(); ++k) {
-    const int set = cluster_[k] = sets.find(static_cast<int>(k));
-    const double own = fixed_[k] ? std::numeric_limits<double>::infinity() : inertia_[k];
-    if (own > weight[at(set)]) {
-      weight[at(set)] = own;
-      head_[at(set)] = static_cast<int>(k);
-    }
-  }
-  column_.assign(u_.size(), -1);
-  columns_ = 0;
-  for (std::size_t k = 0; k < u_.size(); ++k) {
-    follow(static_cast<int>(k), head_[at(cluster_[k])]);
-    int& column = column_[at(cluster_[k])];
-    if (std::isfinite(weight[at(cluster_[k])]) && column < 0) column = columns_++;
-  }
+  clusters_.merge(sets, [&](std::size_t k) { return fixed_[k] ? std::numeric_limits<double>::infinity() : inertia_[k]; });
+  for (int k = 0; at(k) < u_.size(); ++k) follow(k, clusters_.head(k));
   for (Branch& b : branches_) {
-    if (cluster_[at(b.a)] == cluster_[at(b.b)]) b.w = nodal_difference(b);
+    if (clusters_.joined(b.a, b.b)) b.w = nodal_difference(b);
   }
 }
 
@@ -239,7 +222,7 @@ bool ConvexNetwork::part_torn() {
           Branch& b = branches_[by[here]];
           const bool first = at(b.a) == here;
           const double w = first ? given(from) - given(node) : given(node) - given(from);
-          if (!forbids(b, w)) {
+          if (!b.forbids(w)) {
             b.stuck = false;
             b.side = w > 0 ? 1 : -1;
             u_[node] = given_[node];
@@ -267,7 +250,7 @@ void ConvexNetwork::let_prescribed_part() {
     for (Branch& b : branches_) {
       if (b.stuck || !b.jumps) continue;
       b.w = nodal_difference(b);
-      if (b.w != 0 && forbids(b, b.w)) b.stuck = true;
+      if (b.w != 0 && b.forbids(b.w)) b.stuck = true;
     }
     merge();
   }
@@ -275,27 +258,27 @@ void ConvexNetwork::let_prescribed_part() {
 
 /// Sums the forces at all free clusters; true if the sums are round-off.
 bool ConvexNetwork::balanced(Sums& sums) const {
-  sums.all.assign(at(columns_), 0);
+  sums.all.assign(at(clusters_.columns()), 0);
   std::vector<double> rounding(sums.all);
   const auto add = [&](int node, double f) {
-    const int column = column_[at(cluster_[at(node)])];
+    const int column = clusters_.column(node);
     if (column < 0) return;
     sums.all[at(column)] += f;
     rounding[at(column)] += numerics::convex_balance_roundoff * std::abs(f);
   };
   // Round-off of the values themselves.
   const auto blur = [&](int node, double slope, double x) {
-    const int column = column_[at(cluster_[at(node)])];
+    const int column = clusters_.column(node);
     if (column >= 0) rounding[at(column)] += value_rounding * slope * std::abs(x);
   };
   for (const Branch& b : branches_) {
-    if (cluster_[at(b.a)] == cluster_[at(b.b)]) continue;
-    const double f = force(b, b.w, b.side);
+    if (clusters_.joined(b.a, b.b)) continue;
+    const double f = b.force(b.w, b.side);
     add(b.a, f);
     add(b.b, -f);
     blur(b.a, b.law.rounding, 1);
     blur(b.b, b.law.rounding, 1);
-    for (int node : {b.a, b.b}) blur(node, slope(b, b.w), b.w);
+    for (int node : {b.a, b.b}) blur(node, b.slope(b.w), b.w);
   }
   for (std::size_t k = 0; k < u_.size(); ++k) {
     const int node = static_cast<int>(k);

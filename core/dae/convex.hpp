@@ -2,15 +2,16 @@
 
 #include <Eigen/Sparse>
 #include <array>
+#include <cmath>
 #include <functional>
 #include <vector>
 
 #include "core/base/index.hpp"
+#include "core/dae/node_clusters.hpp"
 
 namespace rheonet {
 
 struct Conductance;
-class DisjointSets;
 
 /// A network of set-valued monotone laws, and the values x of its nodes at which everything balances:
 ///
@@ -82,7 +83,7 @@ class ConvexNetwork {
     return w > 0 ? 1 : w < 0 ? -1 : 0;
   }
   /// Whether sticking branches join these nodes. After `solve`.
-  bool joined(int a, int b) const { return cluster_[at(a)] == cluster_[at(b)]; }
+  bool joined(int a, int b) const { return clusters_.joined(a, b); }
   /// Whether a prescribed node cannot move as prescribed, because laws without a bound hold it to another one. After `solve`.
   bool torn(int node) const;
   /// Iterations of the last `solve`.
@@ -101,6 +102,12 @@ class ConvexNetwork {
     bool apart = false;  ///< w != 0 before the last step.
     int side = 1;  ///< The bound at which the force is while the branch slips and w is 0.
     int before = 0;  ///< See was_apart; 0: no guess.
+
+    /// Force and slope at w; at w = 0 those beside that side of it, or beside `side`.
+    double force(double w, int of_side) const;
+    double slope(double w) const;
+    /// A force without a bound holds the branch, or ends a motion to the side of w that its law forbids.
+    bool forbids(double w) const { return std::isinf(w < 0 ? law.low : law.high); }
   };
   struct Equation {
     std::array<int, 3> node;
@@ -123,15 +130,11 @@ class ConvexNetwork {
   double torn(const Equation& equation) const;
   void part_torn_equations();
   void meet_equations();
-  /// A force without a bound holds a branch, or ends a motion to the side of w that the law forbids.
-  static bool forbids(const Branch& b, double w);
   /// Argument of the law, from the values of the nodes.
   double nodal_difference(const Branch& b) const {
     return b.law.of_change ? change(b.a) - change(b.b) : difference(b.a, b.b);
   }
   void follow(int node, int head);
-  double force(const Branch& b, double w, int side) const;
-  double slope(const Branch& b, double w) const;
   double slope_along(const std::vector<double>& d, double step) const;
   void choose_weak();
   void stick_at_first();
@@ -163,10 +166,7 @@ class ConvexNetwork {
   std::vector<Equation> equations_;
   std::vector<double> given_;  ///< Prescribed change of each fixed node.
   std::vector<Branch> branches_;
-  std::vector<int> cluster_;  ///< For each node: its cluster, the nodes that sticking branches join.
-  std::vector<int> head_;     ///< For each cluster: its fixed or heaviest node.
-  std::vector<int> column_;   ///< For each cluster: its unknown, -1 if it holds a fixed node.
-  int columns_ = 0;
+  NodeClusters clusters_;  ///< Nodes that sticking branches and equations join.
   std::vector<int> released_;  ///< Branches of the last release, the worst first.
   int full_steps_ = 0;  ///< Full Newton steps in a row.
   std::size_t rounds_ = 0;

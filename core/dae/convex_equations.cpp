@@ -85,10 +85,10 @@ std::vector<std::vector<double>> ConvexNetwork::equations_of_columns(Eigen::Vect
   left = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(equations_.size()));
   std::vector<std::size_t> pivots;
   for (std::size_t e = 0; e < equations_.size(); ++e) {
-    std::vector<double> row(at(columns_), 0);
+    std::vector<double> row(at(clusters_.columns()), 0);
     double largest = 0, changed = 0;
     for (std::size_t i = 0; i < 3; ++i) {
-      const int node = equations_[e].node[i], column = column_[at(cluster_[at(node)])];
+      const int node = equations_[e].node[i], column = clusters_.column(node);
       const double factor = equations_[e].factor[i];
       largest = std::max(largest, std::abs(factor));
       changed += factor * change(node);
@@ -167,7 +167,7 @@ void ConvexNetwork::share_with_open_equations(const std::vector<std::size_t>& op
   }
   LeastNorm problem;
   const Eigen::Index balances = load.size(), forces = static_cast<Eigen::Index>(bonds.size() + open.size());
-  problem.balance.setZero(balances + columns_, forces);
+  problem.balance.setZero(balances + clusters_.columns(), forces);
   const auto act = [&](int node, Eigen::Index column, double factor) {
     if (row[at(node)] >= 0) problem.balance(row[at(node)], column) += factor;
   };
@@ -187,7 +187,7 @@ void ConvexNetwork::share_with_open_equations(const std::vector<std::size_t>& op
   }
   for (const std::size_t e : open) {
     for (std::size_t i = 0; i < equations_[e].node.size(); ++i) {
-      const int node = equations_[e].node[i], moving = column_[at(cluster_[at(node)])];
+      const int node = equations_[e].node[i], moving = clusters_.column(node);
       act(node, column, equations_[e].factor[i]);
       // On each cluster that moves, all of them together act as they do in the motion.
       if (moving < 0) continue;
@@ -263,7 +263,7 @@ void ConvexNetwork::part_torn_equations() {
   for (std::size_t e = 0; e < equations_.size(); ++e) {
     if (!dependent[e] || torn(equations_[e]) == 0) continue;
     for (Branch& b : branches_) {
-      const auto beside = [&](int node) { return cluster_[at(node)] == cluster_[at(b.a)]; };
+      const auto beside = [&](int node) { return clusters_.joined(node, b.a); };
       if (!b.stuck || std::isinf(b.law.low) || std::isinf(b.law.high) || std::none_of(equations_[e].node.begin(), equations_[e].node.end(), beside)) continue;
       b.stuck = false;
       any = true;
@@ -281,12 +281,12 @@ void ConvexNetwork::meet_equations() {
     equations_of_columns(left);
     if (left.isZero(0)) return;
     std::vector<double> d;
-    if (!direction_of_descent(std::vector<double>(at(columns_), 0), d, false)) return;
+    if (!direction_of_descent(std::vector<double>(at(clusters_.columns()), 0), d, false)) return;
     for (std::size_t k = 0; k < u_.size(); ++k) u_[k] += d[k];
     for (Equation& e : equations_) e.force = 0;
     for (Branch& b : branches_) {
       b.w = nodal_difference(b);
-      if (b.stuck || b.w == 0 || !forbids(b, b.w)) continue;
+      if (b.stuck || b.w == 0 || !b.forbids(b.w)) continue;
       again = b.stuck = true;
     }
     if (again) merge();

@@ -18,7 +18,7 @@ void ConvexNetwork::find_bond_forces(double roundoff) {
   std::vector<double> left(u_.size(), 0);
   for (const Branch& b : branches_) {
     if (b.stuck) continue;
-    const double f = force(b, b.w, b.side);
+    const double f = b.force(b.w, b.side);
     left[at(b.a)] += f;
     left[at(b.b)] -= f;
   }
@@ -35,7 +35,7 @@ void ConvexNetwork::find_bond_forces(double roundoff) {
   for (std::size_t k = 0; k < u_.size(); ++k) {
     left[k] += inertia_[k] * u_[k] - applied_[k];
     // Phi is 0 at fixed nodes, and at the heaviest node of each other cluster: the round-off of a balance stays there.
-    const bool reference = column_[at(cluster_[k])] >= 0 && head_[at(cluster_[k])] == static_cast<int>(k);
+    const bool reference = clusters_.column(static_cast<int>(k)) >= 0 && clusters_.head(static_cast<int>(k)) == static_cast<int>(k);
     if (!fixed_[k] && !reference) row[k] = rows++;
   }
   Eigen::VectorXd phi(rows);  // the loads, then the potentials
@@ -63,7 +63,7 @@ void ConvexNetwork::find_bond_forces(double roundoff) {
 double ConvexNetwork::largest_force() const {
   double largest = 0;
   for (std::size_t k = 0; k < u_.size(); ++k) largest = std::max({largest, std::abs(applied_[k]), std::abs(inertia_[k] * u_[k])});
-  for (const Branch& b : branches_) largest = std::max(largest, b.stuck ? 0 : std::abs(force(b, b.w, b.side)));
+  for (const Branch& b : branches_) largest = std::max(largest, b.stuck ? 0 : std::abs(b.force(b.w, b.side)));
   return largest;
 }
 
@@ -101,7 +101,7 @@ void ConvexNetwork::release_as_before() {
 double ConvexNetwork::power() const {
   double sum = 0;
   for (const Branch& b : branches_) {
-    if (b.w != 0) sum += std::abs(force(b, b.w, b.side) * b.w);
+    if (b.w != 0) sum += std::abs(b.force(b.w, b.side) * b.w);
   }
   for (std::size_t k = 0; k < u_.size(); ++k) {
     sum += (std::abs(applied_[k]) + std::abs(inertia_[k] * u_[k])) * std::abs(base_[k] + u_[k]);
@@ -116,7 +116,7 @@ bool ConvexNetwork::run_away() {
     scale = std::max({scale, std::abs(applied_[k]), std::abs(inertia_[k] * u_[k])});
   }
   for (const Branch& b : branches_) {
-    for (double f : {b.law.low, b.law.high, force(b, b.w, b.side)}) {
+    for (double f : {b.law.low, b.law.high, b.force(b.w, b.side)}) {
       if (std::isfinite(f)) scale = std::max(scale, std::abs(f));
     }
   }
@@ -125,7 +125,7 @@ bool ConvexNetwork::run_away() {
   double farthest = 0;
   for (std::size_t k = 0; k < u_.size(); ++k) {
     if (!restrained(k)) continue;
-    heavy[at(cluster_[k])] = 1;
+    heavy[clusters_.of(static_cast<int>(k))] = 1;
     farthest = std::max(farthest, std::abs(base_[k] + u_[k]));
   }
   for (const Branch& b : branches_) {
@@ -133,7 +133,7 @@ bool ConvexNetwork::run_away() {
     // A node that goes with others does not run away either. Without any force, the regularising slope carries the largest share.
     if (std::abs(b.w) <= numerics::carried_along * farthest) continue;
     for (int node : {b.a, b.b}) {
-      if (!heavy[at(cluster_[at(node)])]) runaways_.push_back(node);
+      if (!heavy[clusters_.of(node)]) runaways_.push_back(node);
     }
   }
   return !runaways_.empty();
@@ -145,7 +145,7 @@ bool ConvexNetwork::flattened(const std::vector<double>& sums) {
   DisjointSets parts(u_.size());
   for (const Branch& b : branches_) {
     const double w = b.w;
-    if (cluster_[at(b.a)] == cluster_[at(b.b)] || slope(b, w) * std::abs(w) > numerics::runaway_imbalance * std::abs(force(b, w, b.side)) || w == 0) {
+    if (clusters_.joined(b.a, b.b) || b.slope(w) * std::abs(w) > numerics::runaway_imbalance * std::abs(b.force(w, b.side)) || w == 0) {
       parts.join(b.a, b.b);
     }
   }
@@ -153,7 +153,7 @@ bool ConvexNetwork::flattened(const std::vector<double>& sums) {
   for (const Branch& b : branches_) {
     const std::size_t from = at(parts.find(b.a)), to = at(parts.find(b.b));
     if (from == to) continue;
-    const double f = force(b, b.w, b.side);
+    const double f = b.force(b.w, b.side);
     flat[from] += f;
     flat[to] -= f;
   }
@@ -161,8 +161,8 @@ bool ConvexNetwork::flattened(const std::vector<double>& sums) {
   for (std::size_t k = 0; k < u_.size(); ++k) {
     if (restrained(k)) held[at(parts.find(static_cast<int>(k)))] = 1;
     forces[at(parts.find(static_cast<int>(k)))] += std::abs(applied_[k]);
-    const int column = column_[at(cluster_[k])];
-    if (column >= 0 && head_[at(cluster_[k])] == static_cast<int>(k)) left[at(parts.find(static_cast<int>(k)))] += sums[at(column)];
+    const int column = clusters_.column(static_cast<int>(k));
+    if (column >= 0 && clusters_.head(static_cast<int>(k)) == static_cast<int>(k)) left[at(parts.find(static_cast<int>(k)))] += sums[at(column)];
   }
   for (std::size_t k = 0; k < u_.size(); ++k) {
     const std::size_t part = at(parts.find(static_cast<int>(k)));

@@ -20,26 +20,26 @@ constexpr double meeting_rounding = numerics::sum_ulps * std::numeric_limits<dou
 bool ConvexNetwork::direction_of_descent(const std::vector<double>& sum_of_laws, std::vector<double>& d, bool secants) {
   std::vector<Conductance> slopes;
   for (const Branch& b : branches_) {
-    const int a = column_[at(cluster_[at(b.a)])], c = column_[at(cluster_[at(b.b)])];
-    if (cluster_[at(b.a)] == cluster_[at(b.b)]) continue;
+    const int a = clusters_.column(b.a), c = clusters_.column(b.b);
+    if (clusters_.joined(b.a, b.b)) continue;
     const double w = b.w;
-    double s = slope(b, w);
+    double s = b.slope(w);
     if (secants) {
-      if (w != 0) s = std::max(s, std::abs(force(b, w, b.side) / w));
+      if (w != 0) s = std::max(s, std::abs(b.force(w, b.side) / w));
       const double steeper = std::max(b.law.forward, b.law.backward);
       if (s <= numerics::flat_slope * steeper) s = steeper;
     }
     slopes.push_back({a, c, s});
   }
   for (std::size_t k = 0; k < u_.size(); ++k) {
-    const int column = column_[at(cluster_[k])];
+    const int column = clusters_.column(static_cast<int>(k));
     if (column >= 0 && inertia_[k] > 0) slopes.push_back({column, -1, inertia_[k]});
   }
-  Eigen::VectorXd step = -Eigen::Map<const Eigen::VectorXd>(sum_of_laws.data(), columns_);
+  Eigen::VectorXd step = -Eigen::Map<const Eigen::VectorXd>(sum_of_laws.data(), clusters_.columns());
   if (!(equations_.empty() ? solve_conductances(slopes, step) : step_within_equations(slopes, step))) return false;
   d.assign(u_.size(), 0);
   for (std::size_t k = 0; k < u_.size(); ++k) {
-    const int column = column_[at(cluster_[k])];
+    const int column = clusters_.column(static_cast<int>(k));
     if (column >= 0) d[k] = step[column];
     if (!std::isfinite(d[k])) return false;
   }
@@ -55,7 +55,7 @@ double ConvexNetwork::slope_along(const std::vector<double>& d, double step) con
     double w = b.w + step * dw;
     // The breakpoint of this branch itself, to round-off.
     if (std::abs(w) <= numerics::break_roundoff * std::abs(step * dw)) w = 0;
-    sum += force(b, w, dw > 0 ? 1 : -1) * dw;
+    sum += b.force(w, dw > 0 ? 1 : -1) * dw;
   }
   for (std::size_t k = 0; k < u_.size(); ++k) {
     if (d[k] != 0) sum += (inertia_[k] * (u_[k] + step * d[k]) - applied_[k]) * d[k];

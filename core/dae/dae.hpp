@@ -1,28 +1,33 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
-#include <optional>
 #include <vector>
 
-#include "core/base/disjoint_sets.hpp"
 #include "core/base/index.hpp"
+#include "core/dae/block_entries.hpp"
+#include "core/dae/block_sensors.hpp"
+#include "core/dae/driven_deflections.hpp"
 #include "core/dae/inertia_matrix.hpp"
 #include "core/dae/inputs.hpp"
+#include "core/dae/jacobian_entries.hpp"
+#include "core/dae/loop_equations.hpp"
 #include "core/dae/loose_dashpots.hpp"
 #include "core/dae/matrix.hpp"
+#include "core/dae/node_positions.hpp"
+#include "core/dae/pivot_rows.hpp"
 #include "core/dae/positions.hpp"
+#include "core/dae/sliding_mode.hpp"
+#include "core/dae/slip_forces.hpp"
 #include "core/dae/state.hpp"
 #include "core/dae/stick_forces.hpp"
 #include "core/dae/unknown_indices.hpp"
 #include "core/network/network.hpp"
 #include "core/network/structure.hpp"
-#include "core/network/train_shares.hpp"
 
 namespace rheonet {
 
 /// The equations of a network in one set of modes, F(t, y, y') = 0, of index 1 or less for any wiring. Linear in y', with a
-/// matrix that is constant except for branches held at rest in parallel (Parallel).
+/// matrix that is constant except for branches held at rest in parallel (SlidingModes).
 ///
 /// Sliders add no equations: those that stick join their ends, those that slip are constant forces.
 ///
@@ -45,9 +50,9 @@ class Dae {
   /// `needed` marks the nodes whose positions are requested (one flag a node). Network, structure and inputs must outlive this.
   Dae(const Network& network, const Structure& structure, Inputs& inputs, const std::vector<char>& needed);
 
-  int size() const { return size_; }
+  int size() const { return std::max(index_.count, 1); }
   /// Number of actual unknowns: 0 if every motion is given (size() is then 1).
-  int unknowns() const { return idle_ ? 0 : size_; }
+  int unknowns() const { return index_.count; }
   const Network& network() const { return *network_; }
   const Structure& structure() const { return *structure_; }
   Inputs& inputs() { return *inputs_; }
@@ -63,14 +68,10 @@ class Dae {
   void residual(double t, const double* y, const double* yp, double* r);
   /// dF/dy + cj dF/dy' into `values`, in the order of `pattern()`.
   void jacobian(double t, double cj, const double* y, const double* yp, double* values);
-  const Pattern& pattern() const { return pattern_; }
+  const Pattern& pattern() const { return jacobian_.pattern(); }
 
   // --- What a consistent state needs (see consistency.hpp).
   bool differential(int row) const { return differential_[static_cast<std::size_t>(row)] != 0; }
-  /// The equation in this row is that of a train.
-  bool tied(int row) const {
-    return std::any_of(structure_->tied.begin(), structure_->tied.end(), [&](const Structure::Tied& tied) { return index_.velocity[at(tied.pivot)] == row; });
-  }
   /// Rows of dF/dy' for differential equations, of dF/dy for algebraic ones: the matrix that determines y' and jumps.
   void consistency_matrix(double t, const double* y, double* values);
   /// While set, slopes of power laws are at least their secants from rest: such an iteration never overshoots rest, whereas
@@ -98,8 +99,7 @@ class Dae {
   };
   const View& view(double t, const double* y, const double* yp);
   const View& viewed() const { return view_; }
-  /// For each train: factors of its force in the balances of its nodes, as in Structure, with the present losses.
-  const std::vector<std::array<double, 3>>& train_forces() const { return train_forces_; }
+  const SlipForces& slip() const { return slip_; }
   /// Makes a double stand for the exact time t (see Inputs::refine). The view is computed anew if that changes anything.
   void refine(TimePoint t) {
     if (inputs_->refine(t)) viewed_ = {};
@@ -109,15 +109,8 @@ class Dae {
     const Viewed& last = viewed_;
     return last.y == y && last.yp == yp && last.t == t ? view_ : view(t, y, yp);
   }
-  /// Displacement of a branch that does not creep, to the last digit of its deflection. After `view`.
-  double displacement(int branch) const { return view_.p[at(branch)] + offset_[at(branch)]; }
-  /// Deflection at t of a branch between two prescribed nodes, which is no unknown [m].
-  double driven_deflection(int branch, double t) const;
-  /// Sum of the forces at the nodes of a tie [N], and of the magnitudes of the external ones. After `view`.
-  struct Balance { double sum, magnitude; };
-  Balance balance(const Structure::Tie& tie) const;
-  /// Whether a force applied to a tie changes with time at present.
-  bool load_changes(const Structure::Tie& tie) const;
+  const DrivenDeflections& driven() const { return driven_; }
+  const NodePositions& places() const { return places_; }
 
   /// Some algebraic unknown may change like the square root of time (a power law at rest): no polynomial approximates it, and
   /// its error says nothing of the errors of other unknowns.
@@ -138,107 +131,17 @@ class Dae {
 
   /// To be called when a law has begun or ceased to hold its branch at rest (DeflectionBatch::holds).
   void update_holds();
-  /// Holds these branches at rest in the state (t, y, y'), in a Filippov sliding mode: their forces follow from their
-  /// neighbours. A branch whose ends others hold together already rests instead.
+  /// Holds these branches at rest in the state (t, y, y'): see SlidingModes::enter.
   void enter_sliding_modes(double t, const double* y, const double* yp, const std::vector<SlidingMode>& sliding_modes);
-  /// This branch has been released at velocity w. Releases the branches in parallel that were held with it, in the direction of
-  /// its law, and returns them.
-  std::vector<int> release_parallel(int branch, double w);
-
-  DeflectionBatch& batch_of(int branch, std::size_t& i) const { return network_->batch_of(branch, i); }
-  /// Output of a block in the state last viewed.
-  double output(int block) const { return inputs_->blocks().out(block).value; }
+  const SlidingModes& sliding_modes() const { return sliding_modes_; }
   /// Limiters take the sides that fit this state: see BlockSignals::choose.
   void choose_limits(double t, const double* y, const double* yp);
-  /// Value of force number `index` of the network [N] in the state last viewed.
-  double applied_force(int index) const { return inputs_->force[at(index)]; }
 
  private:
-  /// An entry that is plus or minus the slope of a deflection or rate law.
-  enum class Source : char { force, rate };
-  using Sign = signed char;
-  struct Scatter { int entry, index; Source source; Sign sign; };
-  /// Terms [flow_begin, flow_end) of flows_ and [velocity_begin, velocity_end) of velocities_.
-  struct Terms { int flow_begin, flow_end, velocity_begin, velocity_end; };
-  /// Equation of a loop or position, less the velocity that a delayed branch feels (index into Inputs::felt, -1: none).
-  struct Row { int row; bool position; Terms terms; int delayed; };
-
-  /// Branches in parallel that are held at rest have one velocity, 0, and one value of its set-valued sign in [-1, 1]
-  /// (Filippov: the same mixture of both directions for all of them). The first branch carries the equation w = 0. The others
-  /// share its mixture: with the rates of hold_rates
-  ///     (p' - backward)/(forward - backward) = (the same of the first).
-  struct Parallel { std::vector<int> branches; };
-  struct Follower {
-    int branch, leader, row;
-    bool alone;  ///< The leader has no other follower.
-    int own_entry, leader_entry;
-    std::vector<int> row_entries;
-    bool active;
-  };
-  // sliding_mode.cpp
-  void find_parallels();
-  /// Holds a branch at rest in the state last viewed, if its law can, and with it those in parallel. `lean` as for
-  /// DeflectionBatch::hold.
-  void hold_parallel(int branch, int lean);
-  /// A branch in parallel has been held, and this one with it.
-  bool beside_held(int branch, const std::vector<SlidingMode>& sliding_modes) const;
-  /// Difference of the shares of a follower and its leader in the mixture [m/s], and its derivatives by p and p' of both.
-  struct Shared { double difference, by_own, by_leader, by_own_rate, by_leader_rate; };
-  Shared share(const Follower& follower, double own_rate, double leader_rate) const;
-  void share_jacobian(double cj, const double* yp, double* values, bool consistency) const;
-
-  /// An entry of the Jacobian due to a block: d(output, or rate of a state)/d(atom) d(atom)/dy times `factor`.
-  struct Coupling {
-    enum class By { itself, slope, damping };  ///< d(atom)/dy: 1, the slope of a deflection law, that of a rate law.
-    int entry;
-    bool of_rate;  ///< It delays the rate of state `source`, else the output of block `source`.
-    std::size_t source, atom;
-    double factor;
-    By by;
-    std::size_t branch;
-  };
-  /// The same through a varying parameter of a slipping slider: times the slope of its sliding force.
-  struct SlidingCoupling { Coupling coupling; std::size_t slider, parameter; };
-  /// The same through the share of a pivot's balance, on which the losses of a train have an influence (TrainShares).
-  struct ShareCoupling { Coupling coupling; std::size_t slider, parameter; Eigen::Index share, pivot; };
-  struct AtomTerm { int column; double factor; Coupling::By by; std::size_t branch; };
-  std::vector<AtomTerm> terms_of_atom(std::size_t atom) const;
-  std::vector<Coupling> entries_of(PatternBuilder& builder, int row, bool of_rate, std::size_t source, double factor) const;
-  void couple(PatternBuilder& builder, int row, bool of_rate, std::size_t source, double factor,
-              Coupling::By by = Coupling::By::itself, std::size_t branch = 0);
-  void build_couplings(PatternBuilder& builder);
-  void couple_motions(PatternBuilder& builder);
-  void couple_sliders(PatternBuilder& builder);
-  // varying_losses.cpp
-  void couple_shares(PatternBuilder& builder);
-  void follow_losses();
-  void shares_jacobian(const double* yp, double* values);
-  double slope(const Coupling& coupling) const;
-  void move_by_blocks(const double* y);
-  double acceleration_by(const Network::Motion& motion) const;
-  double known_acceleration(NodeId node) const;
-  void feel_blocks(const double* y);
-  void block_jacobian(double* values) const;
-
-  void number_unknowns();
-  bool any_follows_time() const;
-  std::vector<char> told_by_dilatant_laws(DisjointSets told) const;
-  void add_row(int row, bool position, const Structure::Loop& loop);
-  Terms add_terms(const Structure::Loop& loop);
-  double sum_of(const Terms& terms, const double* yp) const;
-  /// Row of the equation that balances the forces on the node's group as a whole, or -1.
-  int balance_of_group(NodeId node) const {
-    const int group = structure_->group[at(node)];
-    return group < 0 ? -1 : group_row_[at(group)];
-  }
-  struct Drafts;
+  /// All motions are given, but IDA needs an equation: y' = 0 costs nothing.
+  bool idle() const { return index_.count == 0; }
   void build_pattern();
-  void draft_balances(Drafts& drafts) const;
-  void draft_rates(Drafts& drafts) const;
-  void draft_rows(Drafts& drafts);
-  void share_balances_of_pivots(Drafts& drafts);
-  void take_entries(Drafts& drafts);
-  void tie(double* values) const;
+  /// visit(entry, coefficient in dF/dy').
   template <class Visit>
   void for_each_mass(Visit visit) const;
   // residual.cpp
@@ -250,12 +153,7 @@ class Dae {
   // state_evaluation.cpp
   void share_among_joined(double t);
   void view_velocities(const double* yp);
-  std::vector<double> places(const State& state) const;
-  static double sum_of(const Structure::Tied& tied, const std::vector<double>& position);
-  void set_rate_forms();
   void stiffen_resting_laws();
-  double held_force(const Branch& ends) const;
-  double known_way(const Branch& ends, double t) const;
 
   const Network* network_;
   const Structure* structure_;
@@ -263,58 +161,19 @@ class Dae {
   StickForces stick_forces_;
   InertiaMatrix inertia_;
   Positions positions_;
-  int size_ = 0;
-  bool idle_ = false, rough_ = false, follows_time_ = false, secants_ = false;
   UnknownIndices index_;
-  int deflections_begin_ = 0, deflections_end_ = 0;  ///< The indices of deflections are one after the other.
-  std::vector<Coupling> couplings_;
-  std::vector<SlidingCoupling> sliding_couplings_;
-  std::vector<ShareCoupling> share_couplings_;
-  std::vector<Row> rows_;
-  /// For each delayed branch, the negated present velocity of its free ends. These ends are masses (otherwise no step is longer
-  /// than the delay).
-  std::vector<Terms> felt_terms_;
-  std::vector<Structure::Term> flows_, velocities_;  ///< The terms of Terms: branches with unknown deflections, and nodes.
-  std::vector<int> group_row_;   ///< For each group.
+  SlidingModes sliding_modes_;
+  SlipForces slip_;
+  LoopEquations loops_;
+  JacobianEntries jacobian_;
+  PivotRows pivots_;
+  BlockEntries blocks_;
+  BlockSensors sensors_;
+  DrivenDeflections driven_;
+  NodePositions places_;
+  bool rough_ = false, follows_time_ = false, secants_ = false;
   std::vector<char> differential_;         ///< For each row.
   std::vector<char> differentiated_;       ///< For each unknown.
-  Pattern pattern_;
-  struct Constant { int entry; double value; };
-  std::vector<Constant> constants_;        ///< Of dF/dy.
-  /// Entries of the balances of pivots, which other rows share; then they make way for the equations of the trains.
-  struct SharedEntry { int from, to; std::size_t equation, share; };
-  std::vector<SharedEntry> shared_entries_;
-  struct SharedMass { int entry; std::size_t equation, share; double mass; };
-  std::vector<SharedMass> shared_masses_;  ///< Entries in the balances of pivots, in the rows that share them.
-  std::vector<int> pivot_entries_;         ///< In the rows of pivots.
-  std::vector<Constant> tied_;             ///< The coefficients of these equations.
-  std::vector<Constant> masses_;           ///< Entries of dF/dy', except for flow_entries_.
-  struct FlowEntry { int entry, branch; double sign; };
-  /// An entry due to the present velocity that a delayed branch feels.
-  struct FeltEntry { int entry, delayed; double sign; };
-  std::vector<Parallel> parallels_;        ///< Groups of two or more.
-  std::vector<Follower> followers_;
-  // Coefficients that vanish while their branch is held at rest.
-  std::vector<FlowEntry> flow_entries_;    ///< Entries of p'.
-  std::vector<FlowEntry> creep_entries_;   ///< Entries of the slope of its creep.
-  std::vector<FeltEntry> felt_entries_;
-  std::vector<double> moving_;             ///< For each deflection branch: 1, or 0 while it is held at rest.
-  std::vector<Scatter> scatter_;
-
-  std::vector<double> offset_;  ///< Displacement less deflection of each deflection branch that does not creep.
-  std::vector<double> driven_from_;    ///< For each driven branch: its deflection at the last `enter` or `mark` of the inputs [m].
-  std::vector<double> slider_shift_;   ///< Displacement of each sticking slider.
-  std::vector<double> tied_sum_;       ///< For each equation of a train: the sum of the positions of its nodes, times their factors [m].
-  std::vector<double> slip_force_;     ///< For each slider: 0 while it sticks.
-  std::vector<signed char> slip_side_; ///< For each slider: the direction in which it slips; 0 while it sticks.
-  std::vector<std::size_t> varying_;   ///< Slipping sliders whose sliding force varies.
-  // Losses of trains. While some depend on the speed, the last three change with it.
-  std::vector<char> b_drives_;         ///< For each train.
-  std::optional<TrainShares> train_shares_;  ///< If some depend on the speed.
-  std::vector<Loss::Line> loss_lines_; ///< For each train whose losses slip.
-  std::vector<std::array<double, 3>> train_forces_;  ///< As in Structure.
-  std::vector<Structure::Tied> equations_;           ///< Equations of the trains, with the present shares.
-  std::vector<char> by_force_;         ///< For each rate branch: these equations need its law as w = rate(f).
   // Work space of the residual.
   std::vector<double> work_, v_, a_, rate_in_, rate_out_, rate_d_, df_, dc_;
   View view_;
@@ -324,12 +183,11 @@ class Dae {
   LooseDashpots loose_dashpots_;
 };
 
-/// visit(entry, coefficient in dF/dy').
 template <class Visit>
 void Dae::for_each_mass(Visit visit) const {
-  for (const Constant& mass : masses_) visit(mass.entry, mass.value);
-  for (const SharedMass& m : shared_masses_) visit(m.entry, -equations_[m.equation].shares[m.share].factor * m.mass);
-  for (const FlowEntry& f : flow_entries_) visit(f.entry, f.sign * moving_[at(f.branch)]);
+  for (const JacobianEntries::Constant& mass : jacobian_.masses()) visit(mass.entry, mass.value);
+  pivots_.for_each_mass(visit);
+  loops_.for_each_mass(visit);
 }
 
 }  // namespace rheonet

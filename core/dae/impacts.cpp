@@ -1,3 +1,5 @@
+#include "core/dae/impacts.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,38 +12,85 @@
 #include "core/base/index.hpp"
 #include "core/base/numerics.hpp"
 #include "core/dae/contacts.hpp"
-#include "core/dae/event_transition.hpp"
+#include "core/dae/convex.hpp"
+#include "core/dae/torn_links.hpp"
 #include "core/network/overload_report.hpp"
 #include "core/network/rigid_links.hpp"
 
 namespace rheonet {
 
-double EventTransition::kinetic_energy(const State& state) const {
+namespace {
+
+/// A velocity that an impulse has reduced to this share has stopped: it is round-off.
+constexpr double stopped = numerics::sum_ulps * std::numeric_limits<double>::epsilon();
+
+double kinetic_energy(const EventNetwork& net, const State& state) {
   double sum = 0;
-  for (std::size_t n = 0; n < structure_.kind.size(); ++n) {
-    if (structure_.kind[n] == Kind::massive) sum += structure_.mass[n] * state.velocity[n] * state.velocity[n] / 2;
+  for (std::size_t n = 0; n < net.structure.kind.size(); ++n) {
+    if (net.structure.kind[n] == Kind::massive) sum += net.structure.mass[n] * state.velocity[n] * state.velocity[n] / 2;
   }
-  for (const auto& [branch, inertance] : network_.inerters) {
+  for (const auto& [branch, inertance] : net.network.inerters) {
     const double w = state.velocity[at(branch.a)] - state.velocity[at(branch.b)];
     sum += inertance * w * w / 2;
   }
   return sum;
 }
 
-std::vector<std::string> EventTransition::names_of(const std::vector<int>& sliders) const {
+std::vector<std::string> names_of(const Network& network, const std::vector<int>& sliders) {
   std::vector<std::string> names;
-  for (const int k : sliders) names.push_back(network_.name_of(network_.sliders[at(k)].branch));
+  for (const int k : sliders) names.push_back(network.name_of(network.sliders[at(k)].branch));
   return names;
+}
+
+std::vector<double> slips_of_trains(const Network& network, const std::vector<double>& velocity) {
+  std::vector<double> result;
+  for (const Network::Train& train : network.trains) {
+    double sum = 0;
+    for (std::size_t i = 0; i < train.node.size(); ++i) sum += train.factor[i] * velocity[at(train.node[i])];
+    result.push_back(sum);
+  }
+  return result;
+}
+
+std::vector<double> slider_velocities(const EventNetwork& net, const State& state) {
+  std::vector<double> w;
+  for (const Network::Slider& slider : net.network.sliders) w.push_back(net.velocity(slider.branch.a, state) - net.velocity(slider.branch.b, state));
+  return w;
+}
+
+/// Sliders between masses or prescribed nodes that move in a direction in which they have no bound.
+std::vector<int> moving_backwards(const EventNetwork& net, const State& state) {
+  std::vector<int> result;
+  for (std::size_t k = 0; k < net.network.sliders.size(); ++k) {
+    const auto& [element, a, b] = net.network.sliders[k].branch;
+    // An impact goes on through nodes without mass that are in contact with others.
+    const bool firm = (!net.massless(a) && !net.massless(b)) || net.network.sliders[k].contact;
+    if (net.prescribed(net.network.sliders[k].branch) || !firm || is_rigid_link(net.network.sliders[k])) continue;
+    const double va = net.velocity(a, state), vb = net.velocity(b, state);
+    const bool never = std::isinf(net.inputs.box(k).at(va < vb ? -1 : 1).sliding.value);
+    if (never && std::abs(va - vb) > numerics::equal_energies * (std::abs(va) + std::abs(vb))) result.push_back(static_cast<int>(k));
+  }
+  return result;
+}
+
+}  // namespace
+
+void Impacts::resolve(double t, const std::vector<double>& momentum, const FiredGuards& fired, const Modes& modes, State& state,
+                      EventChange& change) {
+  // At the start, nodes that rigid links join need not have one velocity.
+  if (!started_) change.heat += halt(t, {}, modes, state, change.notes);
+  change.heat += collide(t, momentum, fired.settles, state, change);
+  change.heat += halt(t, fired.sliders, modes, state, change.notes);
 }
 
 /// Gives masses the momentum of dashpots at steps in position [N s], and passes on the jumps of prescribed velocities through
 /// inerters. Ends motions that a law forbids (a freewheel turned backwards by a step, or at the start; a rigid stop that is hit): an impact.
 /// Returns the energy that this turns into heat [J].
-double EventTransition::collide(double t, const std::vector<double>& momentum, const std::vector<int>& settles, State& state, Change& change) {
+double Impacts::collide(double t, const std::vector<double>& momentum, const std::vector<int>& settles, State& state, EventChange& change) {
   std::vector<double> jump(structure_.kind.size(), 0);  // of the velocity of each prescribed node
   // At the start the state does not have these velocities yet: nothing jumps.
   for (std::size_t n = 0; started_ && n < jump.size(); ++n) {
-    if (led_by_[n] >= 0) jump[n] = given_velocity(led_by_[n]) - state.velocity[n];
+    if (net_.leader(static_cast<NodeId>(n)) >= 0) jump[n] = net_.given_velocity(net_.leader(static_cast<NodeId>(n))) - state.velocity[n];
   }
   const double turned = started_ ? 0 : turn_trains(t, state, change.notes);
   started_ = true;
@@ -59,16 +108,16 @@ double EventTransition::collide(double t, const std::vector<double>& momentum, c
       if (momentum[n] != 0) state.velocity[n] += momentum[n] / structure_.mass[n];
     }
   }
-  std::vector<int> backwards = moving_backwards(state);
+  std::vector<int> backwards = moving_backwards(net_, state);
   hit_.clear();
-  largest_kinetic_ = std::max(largest_kinetic_, kinetic_energy(state));
+  largest_kinetic_ = std::max(largest_kinetic_, kinetic_energy(net_, state));
   if (backwards.empty()) return turned;
   const double lost = std::max(0.0, rebound(t, backwards, settles, state));
   const auto in_contact = [&](int k) { return network_.sliders[at(k)].contact.has_value(); };
   std::copy_if(backwards.begin(), backwards.end(), std::back_inserter(hit_), in_contact);
   std::erase_if(backwards, in_contact);
   // Thrown back, they are apart, however short the hop is: mode selection looks further ahead.
-  const std::vector<double> w = slider_velocities(state);
+  const std::vector<double> w = slider_velocities(net_, state);
   for (const int k : hit_) {
     const Network::Slider& slider = network_.sliders[at(k)];
     const int side = network_.contact_of(slider);
@@ -81,39 +130,58 @@ double EventTransition::collide(double t, const std::vector<double>& momentum, c
   const bool impact = lost > numerics::equal_energies * largest_kinetic_;
   if (t == 0 && impact && !hit_.empty()) {
     change.notes.push_back(fmt::format("{} {} start with an impact, which turns {:.6g} J into heat, before the energy account begins",
-                                       at_time(*network_.scene, t), "the ends of " + format_list(names_of(hit_)), lost));
+                                       at_time(*network_.scene, t), "the ends of " + format_list(names_of(network_, hit_)), lost));
   }
   if (backwards.empty() || (!impact && t > 0)) return turned + lost;
-  const std::vector<std::string> names = names_of(backwards);
+  const std::vector<std::string> names = names_of(network_, backwards);
   change.notes.push_back(fmt::format("{} {} would move backwards: {} ends go on together from there{}", at_time(*network_.scene, t), format_list(names),
                               names.size() > 1 ? "their" : "its",
                               impact ? fmt::format(", which turns {:.6g} J into heat{}", lost, t > 0 ? "" : ", before the energy account begins") : ""));
   return turned + lost;
 }
 
-std::vector<double> EventTransition::slips_of_trains(const std::vector<double>& velocity) const {
-  std::vector<double> result;
-  for (const Network::Train& train : network_.trains) {
-    double sum = 0;
-    for (std::size_t i = 0; i < train.node.size(); ++i) sum += train.factor[i] * velocity[at(train.node[i])];
-    result.push_back(sum);
+/// An impact, in two phases (S. D. Poisson 1838). First all contacts take the impulses that end the motions they forbid: a plastic
+/// impact. Then each contact in `hit` gives back its coefficient of restitution times its impulse. So w = -e w_before at a
+/// single contact, and at all that are hit at once with the same e (Newton's law). Contacts that only touch give nothing back,
+/// and neither do those in `settles`. Returns the energy that turns into heat [J]: the work of the impulses at the contacts.
+double Impacts::rebound(double t, const std::vector<int>& hit, const std::vector<int>& settles, State& state) const {
+  const std::vector<double> none(structure_.kind.size(), 0);
+  std::vector<double> given(network_.sliders.size(), 0), momentum(none);
+  double heat = 0;
+  const auto phase = [&] {
+    const std::vector<double> before = slider_velocities(net_, state);
+    const std::vector<double> impulse = share_impulses(t, none, momentum, state);
+    const std::vector<double> after = slider_velocities(net_, state);
+    for (std::size_t k = 0; k < given.size(); ++k) heat += (impulse[k] + given[k]) * (before[k] + after[k]) / 2;
+    return impulse;
+  };
+  const std::vector<double> taken = phase();
+  bool any = false;
+  for (const int k : hit) {
+    const Network::Slider& slider = network_.sliders[at(k)];
+    if (!slider.contact || contains(settles, k)) continue;
+    given[at(k)] = slider.contact->restitution * taken[at(k)];
+    momentum[at(slider.branch.a)] -= given[at(k)];
+    momentum[at(slider.branch.b)] += given[at(k)];
+    any = any || given[at(k)] != 0;
   }
-  return result;
+  if (any) phase();
+  return heat;
 }
 
 /// At the start, nodes that trains join need not have velocities that fit. They go on with common momentum, and the energy that this
 /// takes is heat [J].
-double EventTransition::turn_trains(double t, State& state, std::vector<std::string>& notes) {
+double Impacts::turn_trains(double t, State& state, std::vector<std::string>& notes) const {
   if (network_.trains.empty()) return 0;
   for (std::size_t n = 0; n < structure_.kind.size(); ++n) {
-    if (structure_.kind[n] == Kind::known) state.velocity[n] = given_velocity(static_cast<NodeId>(n));
+    if (structure_.kind[n] == Kind::known) state.velocity[n] = net_.given_velocity(static_cast<NodeId>(n));
   }
-  const std::vector<double> slips = slips_of_trains(state.velocity);
+  const std::vector<double> slips = slips_of_trains(network_, state.velocity);
   if (std::all_of(slips.begin(), slips.end(), [](double slip) { return slip == 0; })) return 0;
-  const double before = kinetic_energy(state);
+  const double before = kinetic_energy(net_, state);
   const std::vector<double> none(structure_.kind.size(), 0);
   share_impulses(t, none, none, state);
-  const double lost = std::max(0.0, before - kinetic_energy(state));
+  const double lost = std::max(0.0, before - kinetic_energy(net_, state));
   if (lost <= numerics::equal_energies * before) return 0;
   std::vector<std::string> names;
   for (const Network::Train& train : network_.trains) names.push_back(network_.scene->elements[at(train.element)].name);
@@ -123,19 +191,16 @@ double EventTransition::turn_trains(double t, State& state, std::vector<std::str
   return lost;
 }
 
-/// A velocity that an impulse has reduced to this share has stopped: it is round-off.
-constexpr double stopped = numerics::sum_ulps * std::numeric_limits<double>::epsilon();
-
 /// Changes the velocities of masses by impulses,
 ///     minimise 1/2 (v - v0)' M (v - v0) - momentum' v     with     w in the permitted direction, at every law without a bound.
 /// Prescribed velocities change by `jump`. Friction, springs and dashpots take no impulse, but the sliders that stick in `held` do.
-std::vector<double> EventTransition::share_impulses(double t, const std::vector<double>& jump, const std::vector<double>& momentum, State& state,
+std::vector<double> Impacts::share_impulses(double t, const std::vector<double>& jump, const std::vector<double>& momentum, State& state,
                                                     const Modes* held) const {
   ConvexNetwork problem(static_cast<int>(structure_.kind.size()));
   std::vector<char> reached(structure_.kind.size(), 0);  // by some impulse
   const auto add = [&](const Branch& b, const ConvexNetwork::Law& law) {
     reached[at(b.a)] = reached[at(b.b)] = 1;
-    return problem.add(slot(b.a), slot(b.b), law);
+    return problem.add(net_.slot(b.a), net_.slot(b.b), law);
   };
   for (const auto& [branch, inertance] : network_.inerters) add(branch, {.backward = inertance, .forward = inertance, .of_change = true});
   constexpr double unlimited = std::numeric_limits<double>::infinity();
@@ -149,25 +214,25 @@ std::vector<double> EventTransition::share_impulses(double t, const std::vector<
   for (std::size_t n = 0; n < structure_.kind.size(); ++n) {
     const auto node = static_cast<NodeId>(n);
     if (structure_.kind[n] == Kind::known) {
-      problem.start(slot(node), given_velocity(node) - jump[n]);
-      problem.fix(slot(node), jump[n]);
+      problem.start(net_.slot(node), net_.given_velocity(node) - jump[n]);
+      problem.fix(net_.slot(node), jump[n]);
       continue;
     }
-    problem.start(slot(node), state.velocity[n]);
-    problem.load(slot(node), momentum[n]);
+    problem.start(net_.slot(node), state.velocity[n]);
+    problem.load(net_.slot(node), momentum[n]);
     if (structure_.kind[n] == Kind::massive) {
-      problem.set_inertia(slot(node), structure_.mass[n]);
+      problem.set_inertia(net_.slot(node), structure_.mass[n]);
     } else if (!reached[n]) {
-      problem.fix(slot(node), 0);
+      problem.fix(net_.slot(node), 0);
     }
   }
   std::vector<double> before = state.velocity;
   for (std::size_t n = 0; n < before.size(); ++n) {
-    if (structure_.kind[n] == Kind::known) before[n] = given_velocity(static_cast<NodeId>(n)) - jump[n];
+    if (structure_.kind[n] == Kind::known) before[n] = net_.given_velocity(static_cast<NodeId>(n)) - jump[n];
   }
-  std::vector<double> slips = slips_of_trains(before);
+  std::vector<double> slips = slips_of_trains(network_, before);
   for (double& slip : slips) slip = -slip;
-  add_trains(problem, slips);
+  net_.tie_trains(problem, slips);
   if (problem.solve() != ConvexNetwork::Outcome::solved) report_undecided(network_, at_time(*network_.scene, t));
   std::vector<char> of_train(structure_.kind.size(), 0);  // their velocities follow from those of masses
   for (const Network::Train& train : network_.trains) {
@@ -175,7 +240,7 @@ std::vector<double> EventTransition::share_impulses(double t, const std::vector<
   }
   for (std::size_t n = 0; n < structure_.kind.size(); ++n) {
     if (structure_.kind[n] != Kind::massive && !of_train[n]) continue;
-    const double was = state.velocity[n], is = problem.value(slot(static_cast<NodeId>(n)));
+    const double was = state.velocity[n], is = problem.value(net_.slot(static_cast<NodeId>(n)));
     state.velocity[n] = std::abs(is) <= stopped * std::abs(was) ? 0 : is;
   }
   std::vector<double> impulses(branch.size(), 0);
@@ -185,27 +250,11 @@ std::vector<double> EventTransition::share_impulses(double t, const std::vector<
   return impulses;
 }
 
-/// Sliders between masses or prescribed nodes that move in a direction in which they have no bound.
-std::vector<int> EventTransition::moving_backwards(const State& state) const {
-  std::vector<int> result;
-  const auto velocity = [&](NodeId n) { return led_by_[at(n)] >= 0 ? given_velocity(led_by_[at(n)]) : state.velocity[at(n)]; };
-  for (std::size_t k = 0; k < network_.sliders.size(); ++k) {
-    const auto& [element, a, b] = network_.sliders[k].branch;
-    // An impact goes on through nodes without mass that are in contact with others.
-    const bool firm = (firm_[at(a)] && firm_[at(b)]) || network_.sliders[k].contact;
-    if (prescribed(network_.sliders[k].branch) || !firm || is_rigid_link(network_.sliders[k])) continue;
-    const double va = velocity(a), vb = velocity(b);
-    const bool never = std::isinf(inputs_.box(k).at(va < vb ? -1 : 1).sliding.value);
-    if (never && std::abs(va - vb) > numerics::equal_energies * (std::abs(va) + std::abs(vb))) result.push_back(static_cast<int>(k));
-  }
-  return result;
-}
-
 /// Masses that sliders bring to rest against each other go on with their common momentum: what remains of their relative
 /// velocity is the round-off of the event. Rigid links do so at once, and the energy that this takes is heat.
-double EventTransition::halt(double t, const std::vector<int>& events, const Modes& modes, State& state,
+double Impacts::halt(double t, const std::vector<int>& events, const Modes& modes, State& state,
                      std::vector<std::string>& notes) const {
-  refuse_torn_links(t);
+  refuse_torn_links(net_, t);
   // Rigid links first, alone: friction between other nodes takes no impulse.
   std::vector<int> links;
   Modes held{std::vector<signed char>(modes.slider.size(), Modes::forward), modes.b_drives};
@@ -221,15 +270,15 @@ double EventTransition::halt(double t, const std::vector<int>& events, const Mod
   const double together = std::max(0.0, heat + go_on_together(events, held, state, notes));
   if (network_.trains.empty()) return together;
   // Where one node of a train has stopped, the others follow.
-  const double before = kinetic_energy(state);
+  const double before = kinetic_energy(net_, state);
   const std::vector<double> none(structure_.kind.size(), 0);
   share_impulses(t, none, none, state, &held);
-  return together + std::max(0.0, before - kinetic_energy(state));
+  return together + std::max(0.0, before - kinetic_energy(net_, state));
 }
 
 /// Gives the nodes that sticking sliders join, one of them among `joining`, their common velocity. Returns the energy that this
 /// turns into heat [J].
-double EventTransition::go_on_together(const std::vector<int>& joining, const Modes& held, State& state, std::vector<std::string>& notes) const {
+double Impacts::go_on_together(const std::vector<int>& joining, const Modes& held, State& state, std::vector<std::string>& notes) const {
   double heat = 0;
   std::vector<std::vector<NodeId>> around(structure_.kind.size());
   for (std::size_t k = 0; k < held.slider.size(); ++k) {
@@ -247,7 +296,7 @@ double EventTransition::go_on_together(const std::vector<int>& joining, const Mo
     for (std::size_t c = 0; c < cluster.size(); ++c) {
       const NodeId node = cluster[c];
       if (structure_.kind[at(node)] == Kind::known) {
-        known = given_velocity(node);
+        known = net_.given_velocity(node);
       }
       momentum += structure_.mass[at(node)] * state.velocity[at(node)];
       mass += structure_.mass[at(node)];
@@ -275,6 +324,18 @@ double EventTransition::go_on_together(const std::vector<int>& joining, const Mo
     }
   }
   return heat;
+}
+
+void Impacts::open_contacts(const Modes& modes, State& state, EventChange& change) const {
+  for (std::size_t k = 0; k < network_.sliders.size(); ++k) {
+    const Network::Slider& slider = network_.sliders[k];
+    if (!slider.contact || apart(network_, slider)) continue;
+    count_from_contact(network_, slider, state);
+    if (modes.slider[k] == Modes::stuck) continue;
+    const int side = network_.contact_of(slider);
+    open_contact(network_, slider);
+    if (contains(hit_, static_cast<int>(k))) change.impacts.push_back({slider.branch.element, -side});
+  }
 }
 
 }  // namespace rheonet

@@ -1,39 +1,34 @@
 #pragma once
 
-#include <algorithm>
 #include <vector>
 
-#include "core/base/index.hpp"
-#include "core/dae/event_transition.hpp"
+#include "core/dae/look_ahead.hpp"
+#include "core/dae/step_errors.hpp"
 
 namespace rheonet {
 
-/// Over a short time h, with velocities v at its end, all forces counted from those at its beginning, and E, c the slope and
-/// creep of a law in the direction of w, the network satisfies
-///
-///     (m/h) (v - v0) + sum of +-[ B (w - w0),  h E (w - c),  a slider's within its bounds ] = dF - present imbalance
-///
-/// Masses outweigh dashpots, and dashpots springs, each by 1/h: so one problem decides at the level (acceleration, velocity or
-/// rate of force) that determines the velocity of each slider.
-struct EventTransition::ModeSelection {
-  double t, h;
-  const Fired* fired;
-  const Modes* modes;
-  const std::vector<double>* force;  // of the sliders
-  const Nodal* now;                  // forces and their round-off
-  ConvexNetwork problem;
-  std::vector<double> slope_around;  // of each node that can move: largest slope there, without sliders and power laws
-  std::vector<int> law;              // of each deflection branch: its branch of the problem; -1: delayed, hence a load
-  std::vector<double> creep, at_rest;  // of each deflection branch
-  std::vector<int> slider, bound_side;
-  std::vector<double> train_force;  // of each train, at the end of h: the bounds of losses depend on it; empty: gears with losses stand still
-  std::vector<Loss> loss;           // of each train, at the end of h
+/// Selects the modes after an event: looks ahead over a short time, shorter where sliders break away or stop only later within it.
+class ModeSelection {
+ public:
+  /// All must outlive this.
+  ModeSelection(const EventNetwork& net, const SliderBounds& bounds, StepErrors& errors) : net_(net), bounds_(bounds), errors_(errors) {}
 
-  void meet(const Structure& structure, const Branch& b, double slope) {
-    for (const NodeId n : {b.a, b.b}) {
-      if (structure.kind[at(n)] != Kind::known) slope_around[at(n)] = std::max(slope_around[at(n)], slope);
-    }
-  }
+  /// The event at t [s]. `stepped`: the slider forces are those before a step of the inputs.
+  struct Event { double t; bool stepped; const FiredGuards& fired; };
+  /// Selects the modes by a look-ahead over h [s], and gives massless nodes their velocities. Returns the sliders that break away under a force
+  /// above their sliding force. Throws SimulationError if nothing balances the forces.
+  std::vector<int> select(const Event& event, double h, State& state, Modes& modes, const std::vector<double>& force, EventChange& change);
+
+ private:
+  void follow_motions(State& state) const;
+  LookAhead look_ahead(const EventState& event, double h) const;
+  LookAhead with_accelerations(const EventState& event, double h) const;
+  LookAhead with_onsets(const EventState& event, double h) const;
+  std::vector<int> set_sliders(const LookAhead& ahead, const EventState& event, Modes& modes, EventChange& change) const;
+
+  const EventNetwork& net_;
+  const SliderBounds& bounds_;
+  StepErrors& errors_;
 };
 
 }  // namespace rheonet

@@ -7,15 +7,19 @@
 
 namespace rheonet {
 
-/// Relative displacement of the ends of a branch due to prescribed motions since the last event. It is computed without
-/// positions, which may be large beside a deflection: their difference would round it.
-double Dae::known_way(const Branch& ends, double t) const {
-  const auto way = [&](NodeId node) {
-    const int motion = structure_->motion[at(node)];
-    return motion < 0 ? 0 : inputs_->way(motion, t);
-  };
-  return way(ends.a) - way(ends.b);
+namespace {
+
+/// Largest force of the laws that are held at rest between these ends [N].
+double held_force(const Structure& structure, const std::vector<double>& moving, const std::vector<double>& f, const Branch& ends) {
+  double largest = 0;
+  for (std::size_t j = 0; j < moving.size(); ++j) {
+    const Branch& b = structure.deflections[j];
+    if (moving[j] == 0 && std::minmax(b.a, b.b) == std::minmax(ends.a, ends.b)) largest = std::max(largest, std::abs(f[j]));
+  }
+  return largest;
 }
+
+}  // namespace
 
 /// Gathers velocities, deflections, and the arguments of the rate laws.
 void Dae::gather(double t, const double* y) {
@@ -24,23 +28,21 @@ void Dae::gather(double t, const double* y) {
   for (std::size_t n = 0; n < v_.size(); ++n) {
     if (index_.velocity[n] >= 0) v_[n] = y[index_.velocity[n]];
   }
-  move_by_blocks(y);
+  sensors_.move_nodes(y);
   for (std::size_t m = 0; m < network_->motions.size(); ++m) {
     const std::size_t node = at(network_->motions[m].node);
     v_[node] = inputs_->velocity[m];
     a_[node] = inputs_->acceleration[m];
   }
   for (std::size_t j = 0; j < index_.deflection.size(); ++j) {
-    const Branch& b = structure_->deflections[j];
-    view_.p[j] = index_.deflection[j] >= 0 ? y[index_.deflection[j]] : driven_from_[j] + known_way(b, t);
+    view_.p[j] = index_.deflection[j] >= 0 ? y[index_.deflection[j]] : driven_.deflection(j, t);
   }
   for (std::size_t r = 0; r < index_.force.size(); ++r) {
     const Branch& b = structure_->rates[r];
     rate_in_[r] = index_.force[r] >= 0 ? y[index_.force[r]] : v_[at(b.a)] - v_[at(b.b)];
   }
-  if (inputs_->blocks().any()) feel_blocks(y);
-  for (const std::size_t k : varying_) slip_force_[k] = slip_side_[k] * inputs_->box(k).at(slip_side_[k]).sliding.value;
-  if (train_shares_) follow_losses();
+  if (inputs_->blocks().any()) sensors_.feel(y, {v_, view_.p, rate_in_});
+  slip_.follow();
 }
 
 /// Sums the forces of the branches and the applied forces, at the nodes that represent joined ones.
@@ -54,8 +56,8 @@ void Dae::sum_forces() {
   };
   for (std::size_t j = 0; j < index_.deflection.size(); ++j) add(structure_->deflections[j], view_.f[j]);
   for (std::size_t r = 0; r < index_.force.size(); ++r) add(structure_->rates[r], index_.force[r] >= 0 ? rate_in_[r] : rate_out_[r]);
-  for (std::size_t k = 0; k < slip_force_.size(); ++k) {
-    if (slip_force_[k] != 0) add(structure_->sliders[k], slip_force_[k]);
+  for (std::size_t k = 0; k < slip_.force().size(); ++k) {
+    if (slip_.force()[k] != 0) add(structure_->sliders[k], slip_.force()[k]);
   }
   for (std::size_t k = 0; k < network_->forces.size(); ++k) {
     const Network::Force& f = network_->forces[k];
@@ -77,18 +79,6 @@ void Dae::evaluate_forces(double t, const double* y) {
   sum_forces();
 }
 
-double Dae::sum_of(const Terms& terms, const double* yp) const {
-  double sum = 0;
-  for (int k = terms.flow_begin; k < terms.flow_end; ++k) {
-    const auto [j, sign] = flows_[at(k)];
-    sum += sign * moving_[at(j)] * (yp[index_.deflection[at(j)]] + view_.creep[at(j)]);
-  }
-  for (int k = terms.velocity_begin; k < terms.velocity_end; ++k) {
-    sum += velocities_[at(k)].sign * v_[at(velocities_[at(k)].index)];
-  }
-  return sum;
-}
-
 /// The balance of forces in the row of each velocity.
 void Dae::balances(const double* yp, double* r) const {
   for (std::size_t n = 0; n < index_.velocity.size(); ++n) {
@@ -97,7 +87,7 @@ void Dae::balances(const double* yp, double* r) const {
   for (std::size_t k = 0; k < structure_->inerters.size(); ++k) {
     const Branch& b = structure_->inerters[k];
     if (b.a == b.b) continue;
-    const auto acceleration = [&](NodeId node) { return index_.velocity[at(node)] >= 0 ? yp[index_.velocity[at(node)]] : known_acceleration(node); };
+    const auto acceleration = [&](NodeId node) { return index_.velocity[at(node)] >= 0 ? yp[index_.velocity[at(node)]] : sensors_.acceleration(node, a_, v_); };
     const double f = network_->inerters[k].inertance * (acceleration(b.a) - acceleration(b.b));
     if (index_.velocity[at(b.a)] >= 0) r[index_.velocity[at(b.a)]] += f;
     if (index_.velocity[at(b.b)] >= 0) r[index_.velocity[at(b.b)]] -= f;
@@ -107,41 +97,33 @@ void Dae::balances(const double* yp, double* r) const {
 void Dae::residual(double t, const double* y, const double* yp, double* r) {
   evaluate_forces(t, y);
 
-  if (idle_) r[0] = yp[0];
+  if (idle()) r[0] = yp[0];
   balances(yp, r);
-  for (std::size_t g = 0; g < group_row_.size(); ++g) {
+  for (const Structure::Group& group : structure_->groups) {
     double sum = 0;
-    for (NodeId node : structure_->groups[g].nodes) sum += view_.nodal[at(node)] - view_.applied[at(node)];
-    if (group_row_[g] >= 0) r[group_row_[g]] = sum;
+    for (NodeId node : group.nodes) sum += view_.nodal[at(node)] - view_.applied[at(node)];
+    if (const int row = index_.group_balance[at(group.nodes.front())]; row >= 0) r[row] = sum;
   }
   for (std::size_t k = 0; k < index_.force.size(); ++k) {
     const Branch& b = structure_->rates[k];
     if (index_.force[k] >= 0) r[index_.force[k]] = v_[at(b.a)] - v_[at(b.b)] - rate_out_[k];
   }
-  for (const Row& row : rows_) {
-    r[row.row] = sum_of(row.terms, yp);
-    if (row.position) r[row.row] += yp[row.row];
-    if (row.delayed < 0) continue;
-    const double now = inputs_->felt_now[at(row.delayed)];
-    r[row.row] += (now == 0 ? 0 : now * sum_of(felt_terms_[at(row.delayed)], yp)) - inputs_->felt[at(row.delayed)];
-  }
+  loops_.residual(v_, view_.creep, yp, r);
   for (std::size_t k = 0; k < index_.block.size(); ++k) r[index_.block[k]] = yp[index_.block[k]] - inputs_->blocks().rate(k);
-  for (const Structure::Tied& tied : equations_) {
+  for (const Structure::Tied& tied : slip_.equations()) {
     double& row = r[index_.velocity[at(tied.pivot)]];
     double sum = v_[at(tied.pivot)];
     for (const auto& [node, factor] : tied.terms) sum += factor * v_[at(node)];
     for (const auto& [node, share] : tied.shares) r[index_.velocity[at(node)]] -= share * row;
     row = sum;
   }
-  for (const Follower& f : followers_) {
-    if (f.active) r[f.row] = share(f, yp[index_.deflection[at(f.branch)]], yp[index_.deflection[at(f.leader)]]).difference;
-  }
+  sliding_modes_.residual(view_.p, yp, r);
 }
 
 void Dae::magnitudes(double* r) const {
-  std::fill(r, r + size_, 0.0);
+  std::fill(r, r + size(), 0.0);
   const auto add = [&](NodeId node, double x) {
-    for (int row : {index_.velocity[at(node)], balance_of_group(node)}) {
+    for (int row : {index_.velocity[at(node)], index_.group_balance[at(node)]}) {
       if (row >= 0) r[row] += std::abs(x);
     }
   };
@@ -162,7 +144,7 @@ void Dae::magnitudes(double* r) const {
     add_branch(b, index_.force[k] >= 0 ? rate_in_[k] : std::abs(rate_out_[k]) + rate_d_[k] * speed);
     if (index_.force[k] >= 0) r[index_.force[k]] = std::abs(v_[at(b.a)]) + std::abs(v_[at(b.b)]) + std::abs(rate_out_[k]);
   }
-  for (std::size_t k = 0; k < slip_force_.size(); ++k) add_branch(structure_->sliders[k], slip_force_[k]);
+  for (std::size_t k = 0; k < slip_.force().size(); ++k) add_branch(structure_->sliders[k], slip_.force()[k]);
   for (std::size_t k = 0; k < network_->forces.size(); ++k) {
     const Network::Force& f = network_->forces[k];
     add(structure_->rigid[at(f.a)], inputs_->force[k]);
@@ -177,7 +159,7 @@ void Dae::magnitudes(double* r) const {
       const Branch& b = structure_->rates[k];
       double forces = 0;
       for (const NodeId n : {b.a, b.b}) {
-        for (int row : {index_.velocity[at(n)], balance_of_group(n)}) {
+        for (int row : {index_.velocity[at(n)], index_.group_balance[at(n)]}) {
           if (row >= 0) forces = std::max(forces, r[row]);
         }
       }
@@ -185,11 +167,7 @@ void Dae::magnitudes(double* r) const {
       r[index_.force[k]] += (laws.batch->velocity_at(i, f + lost) - laws.batch->velocity_at(i, f)) / numerics::equation_roundoff;
     }
   }
-  for (const Row& row : rows_) {
-    for (int k = row.terms.velocity_begin; k < row.terms.velocity_end; ++k) {
-      r[row.row] += std::abs(velocities_[at(k)].sign * v_[at(velocities_[at(k)].index)]);
-    }
-  }
+  loops_.add_magnitudes(v_, r);
   for (const Structure::Tied& tied : structure_->tied) {
     double& row = r[index_.velocity[at(tied.pivot)]];
     row = std::abs(v_[at(tied.pivot)]);
@@ -205,16 +183,20 @@ void Dae::jacobian(double t, double cj, const double* y, const double* yp, doubl
     laws.batch->linearise(&rate_in_[k], &rate_out_[k], &rate_d_[k]);
   }
   stiffen_resting_laws();
-  std::fill_n(values, pattern_.entries(), 0.0);
-  for (const Constant& c : constants_) values[c.entry] += c.value;
+  std::fill_n(values, pattern().entries(), 0.0);
+  jacobian_.add_constants(values);
   for_each_mass([&](int entry, double mass) { values[entry] += cj * mass; });
-  for (const Scatter& s : scatter_) values[s.entry] += s.sign * (s.source == Source::force ? df_ : rate_d_)[at(s.index)];
-  for (const FlowEntry& f : creep_entries_) values[f.entry] += f.sign * moving_[at(f.branch)] * dc_[at(f.branch)];
-  for (const FeltEntry& f : felt_entries_) values[f.entry] += f.sign * inputs_->felt_now[at(f.delayed)];
-  block_jacobian(values);
-  tie(values);
-  shares_jacobian(yp, values);
-  share_jacobian(cj, yp, values, false);
+  jacobian_.add_slopes(df_, rate_d_, values);
+  loops_.add_jacobian(dc_, values);
+  blocks_.add({df_, rate_d_}, values);
+  pivots_.tie(values);
+  if (yp && blocks_.any_shares()) {
+    sum_forces();
+    std::vector<double> balance(at(size()));
+    balances(yp, balance.data());
+    blocks_.add_shares({df_, rate_d_}, balance, values);
+  }
+  sliding_modes_.jacobian(cj, view_.p, yp, values, false);
 }
 
 /// A power law other than Newton's has slope 0 at rest, where its equation has no solution to first order. A secant up to the
@@ -223,13 +205,14 @@ void Dae::jacobian(double t, double cj, const double* y, const double* yp, doubl
 void Dae::stiffen_resting_laws() {
   double scale = -1;
   Inputs::Reach reach;
-  const bool any_held = std::find(moving_.begin(), moving_.end(), 0.0) != moving_.end();
+  const std::vector<double>& moving = sliding_modes_.moving();
+  const bool any_held = std::find(moving.begin(), moving.end(), 0.0) != moving.end();
   for (const Laws<RateBatch>& laws : network_->rate_laws) {
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {
       const std::size_t r = at(laws.first) + i;
       if (secants_ && rate_in_[r] != 0) rate_d_[r] = std::max(rate_d_[r], rate_out_[r] / rate_in_[r]);
       if (any_held && index_.force[r] >= 0 && rate_in_[r] != 0) {
-        const double lost = numerics::equation_roundoff * held_force(structure_->rates[r]);
+        const double lost = numerics::equation_roundoff * held_force(*structure_, moving, view_.f, structure_->rates[r]);
         if (std::abs(rate_in_[r]) < lost) rate_d_[r] = std::max(rate_d_[r], laws.batch->velocity_at(i, lost) / lost);
       }
       if (rate_d_[r] != 0) continue;
@@ -249,16 +232,6 @@ void Dae::stiffen_resting_laws() {
   }
 }
 
-/// Largest force of the laws that are held at rest between these ends [N].
-double Dae::held_force(const Branch& ends) const {
-  double largest = 0;
-  for (std::size_t j = 0; j < moving_.size(); ++j) {
-    const Branch& b = structure_->deflections[j];
-    if (moving_[j] == 0 && std::minmax(b.a, b.b) == std::minmax(ends.a, ends.b)) largest = std::max(largest, std::abs(view_.f[j]));
-  }
-  return largest;
-}
-
 void Dae::guess_forces(double t, double* y) {
   gather(t, y);
   for (const Laws<RateBatch>& laws : network_->rate_laws) {
@@ -272,20 +245,20 @@ void Dae::guess_forces(double t, double* y) {
 
 void Dae::consistency_matrix(double t, const double* y, double* values) {
   jacobian(t, 0, y, nullptr, values);
-  for (std::size_t e = 0; e < pattern_.row.size(); ++e) {
-    if (differential_[at(pattern_.row[e])]) values[e] = 0;
+  for (std::size_t e = 0; e < pattern().row.size(); ++e) {
+    if (differential_[at(pattern().row[e])]) values[e] = 0;
   }
   for_each_mass([&](int entry, double mass) { values[entry] += mass; });
-  share_jacobian(0, nullptr, values, true);
+  sliding_modes_.jacobian(0, view_.p, nullptr, values, true);
 }
 
 void Dae::time_derivative(double* r) const {
-  std::fill(r, r + size_, 0.0);
+  std::fill(r, r + size(), 0.0);
   const auto add = [&](NodeId node, double x) {
     if (node < 0) return;
     node = structure_->rigid[at(node)];
     if (index_.velocity[at(node)] >= 0 && !differential_[at(index_.velocity[at(node)])]) r[index_.velocity[at(node)]] += x;
-    if (const int row = balance_of_group(node); row >= 0) r[row] += x;
+    if (const int row = index_.group_balance[at(node)]; row >= 0) r[row] += x;
   };
   for (std::size_t k = 0; k < index_.force.size(); ++k) {
     const Branch& b = structure_->rates[k];
@@ -297,14 +270,9 @@ void Dae::time_derivative(double* r) const {
       add(b.b, -rate_d_[k] * dw);
     }
   }
-  for (const Row& row : rows_) {  // loops in which all branches are held at rest
-    if (differential_[at(row.row)]) continue;
-    for (int k = row.terms.velocity_begin; k < row.terms.velocity_end; ++k) {
-      r[row.row] += velocities_[at(k)].sign * a_[at(velocities_[at(k)].index)];
-    }
-  }
-  for (const std::size_t k : varying_) {
-    const double rate = slip_side_[k] * inputs_->box(k).at(slip_side_[k]).sliding.derivative;
+  loops_.add_time_derivative(a_, differential_, r);
+  for (const std::size_t k : slip_.varying()) {
+    const double rate = slip_.side(k) * inputs_->box(k).at(slip_.side(k)).sliding.derivative;
     add(structure_->sliders[k].a, rate);
     add(structure_->sliders[k].b, -rate);
   }

@@ -16,8 +16,8 @@ void Dae::share_among_joined(double t) {
   };
   for (std::size_t j = 0; j < index_.deflection.size(); ++j) add(network_->deflections[j], view_.f[j]);
   for (std::size_t r = 0; r < index_.force.size(); ++r) add(network_->rates[r], index_.force[r] >= 0 ? rate_in_[r] : rate_out_[r]);
-  for (std::size_t k = 0; k < slip_force_.size(); ++k) {
-    if (slip_force_[k] != 0) add(network_->sliders[k].branch, slip_force_[k]);
+  for (std::size_t k = 0; k < slip_.force().size(); ++k) {
+    if (slip_.force()[k] != 0) add(network_->sliders[k].branch, slip_.force()[k]);
   }
   for (std::size_t k = 0; k < network_->forces.size(); ++k) {
     const Network::Force& f = network_->forces[k];
@@ -35,10 +35,10 @@ void Dae::share_among_joined(double t) {
   }
   for (std::size_t k = 0; k < network_->trains.size(); ++k) {
     const Network::Train& train = network_->trains[k];
-    for (std::size_t i = 0; i < train.node.size(); ++i) left[at(train.node[i])] += train_forces_[k][i] * view_.train_force[k];
+    for (std::size_t i = 0; i < train.node.size(); ++i) left[at(train.node[i])] += slip_.train_forces()[k][i] * view_.train_force[k];
   }
   stick_forces_.solve(t, left, view_.slider_force, view_.train_force);
-  for (std::size_t k = 0; k < slip_force_.size(); ++k) {
+  for (std::size_t k = 0; k < slip_.force().size(); ++k) {
     if (structure_->stuck[k]) add(network_->sliders[k].branch, view_.slider_force[k]);
   }
 }
@@ -54,11 +54,11 @@ const Dae::View& Dae::view(double t, const double* y, const double* yp) {
     }
   }
   for (const Network::Motion& m : network_->motions) {
-    if (m.block >= 0) view_.acceleration[at(m.node)] = known_acceleration(m.node);
+    if (m.block >= 0) view_.acceleration[at(m.node)] = sensors_.acceleration(m.node, a_, v_);
   }
   std::fill(view_.train_force.begin(), view_.train_force.end(), 0.0);
   if (inertia_.coupled()) {
-    if (train_shares_) inertia_.take_train_forces(train_forces_);
+    if (slip_.shares_vary()) inertia_.take_train_forces(slip_.train_forces());
     for (std::size_t n = 0; n < v_.size(); ++n) work_[n] = view_.applied[n] - view_.nodal[n];
     inertia_.accelerate(work_, view_.acceleration, view_.train_force);
   }
@@ -72,45 +72,24 @@ const Dae::View& Dae::view(double t, const double* y, const double* yp) {
     share_among_joined(t);
     inputs_->transmit(view_.train_force);
   }
-  for (std::size_t k = 0; k < slip_force_.size(); ++k) {
+  for (std::size_t k = 0; k < slip_.force().size(); ++k) {
     const Branch& b = structure_->sliders[k];
     view_.slider_velocity[k] = structure_->stuck[k] ? 0 : view_.velocity[at(b.a)] - view_.velocity[at(b.b)];
     if (structure_->stuck[k]) continue;
-    view_.slider_force[k] = slip_force_[k];
-    if (const int train = network_->sliders[k].train; train >= 0) view_.slider_force[k] = loss_lines_[at(train)].at(view_.train_force[at(train)]) - view_.train_force[at(train)];
+    view_.slider_force[k] = slip_.force(k, view_.train_force);
   }
   for (std::size_t r = 0; r < index_.force.size(); ++r) {
     view_.rate_velocity[r] = index_.force[r] >= 0 ? rate_out_[r] : rate_in_[r];
     view_.rate_force[r] = index_.force[r] >= 0 ? rate_in_[r] : rate_out_[r];
   }
-  for (std::size_t m = 0; m < network_->motions.size(); ++m) {
-    if (network_->motions[m].block < 0) view_.position[at(network_->motions[m].node)] = inputs_->position[m];
-  }
-  for (NodeId node : positions_.order) {
-    const Position& x = positions_.of[at(node)];
-    double& position = view_.position[at(node)];
-    const double parent = view_.position[at(x.parent)];
-    if (x.integrated) {
-      position = parent + y[index_.position[at(node)]];
-    } else if (x.branch >= 0) {
-      position = parent + x.sign * (view_.p[at(x.branch)] + offset_[at(x.branch)]);
-    } else if (x.slider >= 0) {
-      position = parent + x.sign * slider_shift_[at(x.slider)];
-    } else if (x.tied >= 0) {
-      const Structure::Tied& tied = structure_->tied[at(x.tied)];
-      const auto own = std::find_if(tied.terms.begin(), tied.terms.end(), [&](const Structure::Tied::Term& term) { return term.node == node; });
-      const double factor = own == tied.terms.end() ? 1 : own->factor;
-      position = 0;
-      position = (tied_sum_[at(x.tied)] - sum_of(tied, view_.position)) / factor;
-    }
-  }
+  places_.evaluate(view_.p, y, view_.position);
   viewed_ = {t, y, yp};
   return view_;
 }
 
 void Dae::view_velocities(const double* yp) {
   view_.velocity = v_;
-  const auto flow = [&](int j) { return moving_[at(j)] * (yp[index_.deflection[at(j)]] + view_.creep[at(j)]); };
+  const auto flow = [&](int j) { return sliding_modes_.moving()[at(j)] * (yp[index_.deflection[at(j)]] + view_.creep[at(j)]); };
   for (const Structure::Group& group : structure_->groups) {
     double base = 0;
     if (group.tie >= 0) {
@@ -135,34 +114,6 @@ void Dae::view_velocities(const double* yp) {
   }
 }
 
-double Dae::driven_deflection(int branch, double t) const {
-  return driven_from_[at(branch)] + known_way(structure_->deflections[at(branch)], t);
-}
-
-Dae::Balance Dae::balance(const Structure::Tie& tie) const {
-  Balance result{0, 0};
-  for (NodeId node : tie.nodes) {
-    result.sum += view_.nodal[at(node)] - view_.applied[at(node)];
-    result.magnitude += std::abs(view_.applied[at(node)]);
-  }
-  const auto add = [&](const Branch& b, double f) {
-    if (std::find(tie.elements.begin(), tie.elements.end(), b.element) != tie.elements.end()) result.magnitude += std::abs(f);
-  };
-  for (std::size_t k = 0; k < network_->sliders.size(); ++k) add(network_->sliders[k].branch, view_.slider_force[k]);
-  for (std::size_t j = 0; j < network_->deflections.size(); ++j) add(network_->deflections[j], view_.f[j]);
-  return result;
-}
-
-bool Dae::load_changes(const Structure::Tie& tie) const {
-  const auto within = [&](NodeId node) { return std::find(tie.nodes.begin(), tie.nodes.end(), node) != tie.nodes.end(); };
-  for (std::size_t k = 0; k < network_->forces.size(); ++k) {
-    const Network::Force& f = network_->forces[k];
-    const bool changes = inputs_->force_rate[k] != 0 || (f.block >= 0 && inputs_->blocks().slopes().couples(f.block));
-    if (changes && within(f.a) != within(f.b)) return true;
-  }
-  return false;
-}
-
 const std::vector<double>& Dae::slopes() {
   for (const Laws<DeflectionBatch>& laws : network_->deflection_laws) {
     const std::size_t k = at(laws.first);
@@ -181,7 +132,7 @@ void Dae::balance_loose_dashpots() {
   };
   for (std::size_t j = 0; j < view_.f.size(); ++j) add(structure_->deflections[j], view_.f[j]);
   for (std::size_t r = 0; r < rate_in_.size(); ++r) add(structure_->rates[r], index_.force[r] >= 0 ? rate_in_[r] : rate_out_[r]);
-  for (std::size_t k = 0; k < slip_force_.size(); ++k) add(structure_->sliders[k], slip_force_[k]);
+  for (std::size_t k = 0; k < slip_.force().size(); ++k) add(structure_->sliders[k], slip_.force()[k]);
   loose_dashpots_.balance({magnitude, view_.applied, v_}, rate_out_, view_.nodal);
 }
 

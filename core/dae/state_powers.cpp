@@ -21,7 +21,7 @@ double StatePowers::reaction(NodeId node) const {
   for (std::size_t k = 0; k < network_.trains.size(); ++k) {
     const Network::Train& train = network_.trains[k];
     for (std::size_t i = 0; i < train.node.size(); ++i) {
-      if (train.node[i] == node) force += dae_.train_forces()[k][i] * view_.train_force[k];
+      if (train.node[i] == node) force += dae_.slip().train_forces()[k][i] * view_.train_force[k];
     }
   }
   return force;
@@ -85,7 +85,7 @@ double StatePowers::heat_of_laws() const {
     }
   }
   for (const Network::Force& f : network_.forces) {
-    if (f.energy >= 0 && !f.lossless()) heat -= dae_.output(f.energy);
+    if (f.energy >= 0 && !f.lossless()) heat -= dae_.inputs().blocks().out(f.energy).value;
   }
   return heat;
 }
@@ -102,7 +102,7 @@ double StatePowers::stored() const {
   }
   for (std::size_t k = 0; k < network_.inerters.size(); ++k) energy += inerter_energy(k);
   for (const Network::Force& f : network_.forces) {
-    if (f.energy >= 0) energy += dae_.output(f.energy);
+    if (f.energy >= 0) energy += dae_.inputs().blocks().out(f.energy).value;
   }
   return energy;
 }

@@ -5,6 +5,32 @@
 
 namespace rheonet {
 
+namespace {
+
+/// In each set of nodes that hold each other, but that neither a known node nor a train holds, fixes one. Returns the names of these nodes.
+std::vector<std::string> fix_positions(const Network& network, const Structure& structure, ConvexNetwork& problem, DisjointSets& hang) {
+  FreeMotions free(network, hang);
+  const auto fix = [&](NodeId node) {
+    problem.fix(structure.rank[at(node)], 0);
+    free.place(node);
+  };
+  for (NodeId node = 0; at(node) < structure.kind.size(); ++node) {
+    if (structure.kind[at(node)] == Kind::known) fix(node);
+  }
+  std::vector<std::string> open;
+  // Nodes that the user has placed come first.
+  for (const bool given : {true, false}) {
+    for (NodeId node = 0; at(node) < structure.kind.size(); ++node) {
+      if (std::isnan(network.node(node).position) == given || !free.free(node)) continue;
+      fix(node);
+      open.push_back(network.node_name(node));
+    }
+  }
+  return open;
+}
+
+}  // namespace
+
 /// The forces at the start values, which displacements have to balance.
 struct SteadyStateSolver::Forces {
   std::vector<double> load;           // on each node
@@ -34,7 +60,7 @@ SteadyStateSolver::Forces SteadyStateSolver::forces_at_start() {
       double slope = 0;
       f = forces.elastic[j] = law.batch->force_along(law.i, state_.p[j], 0, slope);
       forces.hang.join(b.a, b.b);
-      if (!law.rigid()) forces.sticking.push_back(name(b));
+      if (!law.rigid()) forces.sticking.push_back(network_.name_of(b));
     } else {
       f = law.force(difference(b));
       state_.p[j] = law.batch->settle(law.i, state_.p[j], f, law.direction);
@@ -45,7 +71,7 @@ SteadyStateSolver::Forces SteadyStateSolver::forces_at_start() {
     const Network::Slider& s = network_.sliders[k];
     if (slip_[k] == 0) {
       forces.hang.join(s.branch.a, s.branch.b);
-      if (!rigid(k) && !has_contact(k)) forces.sticking.push_back(name(s.branch));
+      if (!is_rigid_link(s) && !network_.sliders[k].contact) forces.sticking.push_back(network_.name_of(s.branch));
     }
   }
   return forces;
@@ -84,13 +110,13 @@ ConvexNetwork SteadyStateSolver::position_problem(const Forces& forces, const st
   for (std::size_t k = 0; k < slip_.size(); ++k) {
     const Network::Slider& s = network_.sliders[k];
     if (direction[k] != 0) {
-      const double w = difference(s.branch), f = result_.slider_force[k] = direction[k] * friction(k, direction[k], w).at(direction[k] * w);
+      const double w = difference(s.branch), f = result_.slider_force[k] = direction[k] * friction_.around(k, direction[k], w).at(direction[k] * w);
       problem.load(slot(s.branch.a), -f);
       problem.load(slot(s.branch.b), f);
       continue;
     }
     slider_branch[k] = problem.add(slot(s.branch.a), slot(s.branch.b),
-                                   s.contact ? contact_law(k) : ConvexNetwork::Law{.low = -bound(k, -1), .high = bound(k, 1)});
+                                   s.contact ? contacts_.law(k) : ConvexNetwork::Law{.low = -friction_.bound(k, -1), .high = friction_.bound(k, 1)});
   }
   add_trains(problem, [&](NodeId node) { return slot(node); });
   return problem;
@@ -107,25 +133,29 @@ bool SteadyStateSolver::find_positions() {
   bool again = true;
   for (int n = 0; again; ++n) {
     problem = position_problem(forces, slip_, slider_branch);
-    open = fix_positions(problem, forces.hang);
+    open = fix_positions(network_, structure_, problem, forces.hang);
     const ConvexNetwork::Outcome outcome = problem.solve();
     state_.train_force = problem.forces_of_equations();
     again = !agree(trials);
-    if (!again) refuse_unbalanced(problem, outcome, std::numeric_limits<double>::infinity());
-    const bool balanced = outcome == ConvexNetwork::Outcome::solved;
-    again = (balanced && n < numerics::contact_iterations && press_contacts(problem, slider_branch)) || again;
+    if (!again) report_.refuse_unbalanced(problem, outcome, std::numeric_limits<double>::infinity());
+    if (outcome != ConvexNetwork::Outcome::solved || n >= numerics::contact_iterations) continue;
+    for (std::size_t k = 0; k < slip_.size(); ++k) {
+      if (!network_.sliders[k].contact || slider_branch[k] < 0) continue;
+      const Branch& b = network_.sliders[k].branch;
+      again = contacts_.press(k, problem.difference(slot(b.a), slot(b.b)), problem.force(slider_branch[k])) || again;
+    }
   }
   std::vector<int> slid(slip_.size(), 0), direction = slip_;
   for (std::size_t k = 0; k < slip_.size(); ++k) {
-    if (slip_[k] != 0 || has_contact(k)) continue;
+    if (slip_[k] != 0 || network_.sliders[k].contact) continue;
     direction[k] = slid[k] = problem.motion(slider_branch[k]);
   }
-  if (break_away(slid)) return false;
+  if (friction_.break_away(slid)) return false;
   // Once more, with tangents and with the forces of sliders that have slid on the way: this removes the effect of regularising slopes.
   trials = TrainForceTrials(network_, inputs_, state_.train_force, largest_load_);
   for (again = true; again; again = !agree(trials)) {
     ConvexNetwork refined = position_problem(forces, direction, slider_branch, &problem);
-    fix_positions(refined, forces.hang);
+    fix_positions(network_, structure_, refined, forces.hang);
     if (refined.solve() != ConvexNetwork::Outcome::solved || !near_tangents(forces, problem, refined)) break;
     problem = std::move(refined);
     state_.train_force = problem.forces_of_equations();
@@ -135,11 +165,11 @@ bool SteadyStateSolver::find_positions() {
   }
   take_positions(problem);
   if (const auto& sticking = forces.sticking; !sticking.empty()) {
-    note(format_list(sticking) + (sticking.size() > 1 ? " stick: their forces are" : " sticks: its force is") +
+    report_.note(format_list(sticking) + (sticking.size() > 1 ? " stick: their forces are" : " sticks: its force is") +
          " what slow loading from the start values leaves");
   }
   if (!open.empty()) {
-    note(fmt::format("no force says where {} {}: {} in the position of the start values", format_list(open),
+    report_.note(fmt::format("no force says where {} {}: {} in the position of the start values", format_list(open),
                      open.size() > 1 ? "are" : "is", open.size() > 1 ? "they start" : "it starts"));
   }
   return true;
@@ -174,33 +204,11 @@ void SteadyStateSolver::take_positions(const ConvexNetwork& problem) {
     }
   }
   for (std::size_t k = 0; k < slip_.size(); ++k) {
-    if (has_contact(k) && network_.contact_of(network_.sliders[k]) == 0) result_.modes.slider[k] = Modes::forward;
+    if (network_.sliders[k].contact && network_.contact_of(network_.sliders[k]) == 0) result_.modes.slider[k] = Modes::forward;
   }
   for (std::size_t n = 0; n < velocity_.size(); ++n) {
     state_.position[n] += moved(static_cast<NodeId>(n));
   }
-}
-
-/// In each set of nodes that hold each other, but that neither a known node nor a train holds, fixes one. Returns the names of these nodes.
-std::vector<std::string> SteadyStateSolver::fix_positions(ConvexNetwork& problem, DisjointSets& hang) const {
-  FreeMotions free(network_, hang);
-  const auto fix = [&](NodeId node) {
-    problem.fix(slot(node), 0);
-    free.place(node);
-  };
-  for (NodeId node = 0; at(node) < velocity_.size(); ++node) {
-    if (known(node)) fix(node);
-  }
-  std::vector<std::string> open;
-  // Nodes that the user has placed come first.
-  for (const bool given : {true, false}) {
-    for (NodeId node = 0; at(node) < velocity_.size(); ++node) {
-      if (std::isnan(network_.node(node).position) == given || !free.free(node)) continue;
-      fix(node);
-      open.push_back(network_.node_name(node));
-    }
-  }
-  return open;
 }
 
 }  // namespace rheonet

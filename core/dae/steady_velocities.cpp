@@ -8,25 +8,23 @@
 
 namespace rheonet {
 
-/// Chooses the node that represents each set: one whose velocity is given if there is one.
-void SteadyStateSolver::lead(DisjointSets& sets) {
-  std::vector<NodeId> first(velocity_.size(), -1);
-  for (const bool given : {true, false}) {
-    for (std::size_t n = 0; n < velocity_.size(); ++n) {
-      NodeId& leader = first[at(sets.find(static_cast<NodeId>(n)))];
-      if (leader < 0 && held(static_cast<NodeId>(n)) == given) leader = static_cast<NodeId>(n);
-    }
+std::vector<Branch> SteadyStateSolver::rigid_branches() const {
+  std::vector<Branch> result;
+  for (std::size_t j = 0; j < laws_.size(); ++j) {
+    if (laws_[j].rigid()) result.push_back(network_.deflections[j]);
   }
-  leader_.resize(velocity_.size());
-  for (std::size_t n = 0; n < velocity_.size(); ++n) leader_[n] = first[at(sets.find(static_cast<NodeId>(n)))];
+  for (const Network::Slider& slider : network_.sliders) {
+    if (is_rigid_link(slider)) result.push_back(slider.branch);
+  }
+  return result;
 }
 
 /// Finds the velocities at which all forces balance when springs are rigid, friction has its full force in motion, and nothing
 /// accelerates. False if sliders have broken away under more than their sliding force, or if losses of trains have new bounds.
 bool SteadyStateSolver::find_velocities() {
   DisjointSets rigid(velocity_.size());
-  for_each_rigid([&](const Branch& b) { rigid.join(b.a, b.b); });
-  lead(rigid);
+  for (const Branch& b : rigid_branches()) rigid.join(b.a, b.b);
+  groups_.take(rigid);
   double scale = largest_load_;
   for (const Law& law : laws_) {
     for (double f : {law.steady.rest, law.steady.bound}) scale = std::isfinite(f) ? std::max(scale, f) : scale;
@@ -34,7 +32,7 @@ bool SteadyStateSolver::find_velocities() {
   ConvexNetwork problem(0);
   std::vector<int> law_branch, slider_branch;
   const auto solve = [&](bool along_curves) {
-    along_curves_ = along_curves;
+    friction_.go_along_curves(along_curves);
     problem = velocity_problem();
     add_steady_laws(problem, law_branch);
     add_steady_sliders(problem, slider_branch);
@@ -43,10 +41,9 @@ bool SteadyStateSolver::find_velocities() {
   };
   ConvexNetwork::Outcome outcome = solve(false);
   // Friction that rises with the speed may balance at some speed what it does not balance along its tangent at the present trial.
-  const bool rises = std::any_of(follows_.begin(), follows_.end(), [](NodeId node) { return node >= 0; });
-  if (outcome == ConvexNetwork::Outcome::unbounded && losses_known_ && rises) outcome = solve(true);
-  if (!losses_known_) {
-    losses_known_ = true;
+  if (outcome == ConvexNetwork::Outcome::unbounded && friction_.losses_known() && friction_.any_follows_speed()) outcome = solve(true);
+  if (!friction_.losses_known()) {
+    friction_.know_losses();
     state_.train_force = problem.forces_of_equations();
     trials_ = TrainForceTrials(network_, inputs_, state_.train_force, scale);
     inputs_.transmit(state_.train_force);
@@ -55,12 +52,12 @@ bool SteadyStateSolver::find_velocities() {
   // The losses at trial forces may be too small to hold the load: only forces that agree with their losses show an overload.
   state_.train_force = problem.forces_of_equations();
   if (!agree(trials_)) return false;
-  refuse_unbalanced(problem, outcome, numerics::unresisted_speed * natural_speed(scale));
+  report_.refuse_unbalanced(problem, outcome, numerics::unresisted_speed * natural_speed(scale));
   slip_.assign(network_.sliders.size(), 0);
   for (std::size_t k = 0; k < slip_.size(); ++k) {
     slip_[k] = slider_branch[k] < 0 ? 0 : problem.motion(slider_branch[k]);
   }
-  if (break_away(slip_)) return false;
+  if (friction_.break_away(slip_)) return false;
   for (std::size_t j = 0; j < laws_.size(); ++j) {
     laws_[j].direction = laws_[j].steady.rest > 0 && law_branch[j] >= 0 ? problem.direction(law_branch[j]) : 0;
   }
@@ -68,7 +65,7 @@ bool SteadyStateSolver::find_velocities() {
   TrainForceTrials trials(network_, inputs_, state_.train_force, scale);
   while (!refine_velocities(scale, trials)) {
   }
-  refuse_torn_trains();
+  report_.refuse_torn_trains(velocity_);
   for (std::size_t j = 0; j < laws_.size(); ++j) {
     const double w = difference(network_.deflections[j]);
     if (laws_[j].steady.rest == 0) laws_[j].direction = w > 0 ? 1 : w < 0 ? -1 : 0;
@@ -83,7 +80,7 @@ void SteadyStateSolver::add_steady_laws(ConvexNetwork& problem, std::vector<int>
   for (std::size_t j = 0; j < laws_.size(); ++j) {
     const Branch& b = network_.deflections[j];
     const DeflectionBatch::Steady& s = laws_[j].steady;
-    if (together(b)) continue;
+    if (groups_.together(b)) continue;
     ConvexNetwork::Law law{.low = -s.rest, .high = s.rest, .backward = s.slope, .forward = s.slope};
     if (s.slope > 0 && std::isfinite(s.bound)) {
       law.beyond = [s](double w, double& slope) {
@@ -92,7 +89,7 @@ void SteadyStateSolver::add_steady_laws(ConvexNetwork& problem, std::vector<int>
         return std::clamp(f, -s.bound, s.bound);
       };
     }
-    branch_of[j] = problem.add(leader(b.a), leader(b.b), law);
+    branch_of[j] = problem.add(groups_.slot(b.a), groups_.slot(b.b), law);
   }
 }
 
@@ -100,74 +97,40 @@ void SteadyStateSolver::add_steady_sliders(ConvexNetwork& problem, std::vector<i
   branch_of.assign(network_.sliders.size(), -1);
   for (std::size_t k = 0; k < network_.sliders.size(); ++k) {
     const Network::Slider& s = network_.sliders[k];
-    if (together(s.branch)) continue;
-    ConvexNetwork::Law law{.low = -bound(k, -1), .high = bound(k, 1)};
-    if (follows_speed(k) && (s.train < 0 || losses_known_)) {
-      law.beyond = [this, k, tangents = std::array{friction(k, -1, 0), friction(k, 1, 0)}](double w, double& slope) {
+    if (groups_.together(s.branch)) continue;
+    ConvexNetwork::Law law{.low = -friction_.bound(k, -1), .high = friction_.bound(k, 1)};
+    if (friction_.follows_speed(k) && (s.train < 0 || friction_.losses_known())) {
+      law.beyond = [this, k, tangents = std::array{friction_.around(k, -1, 0), friction_.around(k, 1, 0)}](double w, double& slope) {
         const int side = w > 0 ? 1 : -1;
-        const Friction of = along_curves_ ? friction(k, side, w) : tangents[side > 0];
+        const SteadyFriction::Curve of = friction_.along_curves() ? friction_.around(k, side, w) : tangents[side > 0];
         slope = of.slope_at(side * w);
         return side * of.at(side * w);
       };
     }
-    branch_of[k] = problem.add(leader(s.branch.a), leader(s.branch.b), std::move(law));
+    branch_of[k] = problem.add(groups_.slot(s.branch.a), groups_.slot(s.branch.b), std::move(law));
   }
 }
 
 /// True if the forces of the trains are those that the bounds of their losses were found from. If not, there are new bounds.
 bool SteadyStateSolver::agree(TrainForceTrials& trials) {
   if (trials.agree(state_.train_force)) return true;
-  if (trials.endless()) report_losses(network_, kind() + ":");
+  if (trials.endless()) report_losses(network_, report_.refusal() + ":");
   inputs_.transmit(trials.trial());
   return false;
-}
-
-/// True if any of the sliders that move in these directions had held more than its sliding force until now.
-bool SteadyStateSolver::break_away(const std::vector<int>& direction) {
-  bool any = false;
-  for (std::size_t k = 0; k < direction.size(); ++k) {
-    if (direction[k] == 0 || broken_[k]) continue;
-    const Bounds& bounds = inputs_.box(k).at(direction[k]);
-    if (!follows_speed(k) && bounds.breakaway.value == bounds.sliding.value) continue;
-    broken_[k] = any = true;
-  }
-  return any;
-}
-
-/// Bounds of a slider at the velocity w. Other quantities that they depend on are taken at the present trial.
-Bounds SteadyStateSolver::bounds_at(std::size_t slider, int side, double w) const {
-  if (has_contact(slider)) return network_.sliders[slider].contact->at(side).at(side);
-  if (!follows_speed(slider)) return inputs_.box(slider).at(side);
-  const Branch& b = network_.sliders[slider].branch;
-  const bool first = follows_[slider] == b.a;
-  const double other = trial().velocity[at(first ? b.b : b.a)];
-  return inputs_.supposed_box(slider, follows_[slider], first ? other + w : other - w).at(side);
-}
-
-/// Friction around the velocity w, or around that of the present trial.
-SteadyStateSolver::Friction SteadyStateSolver::friction(std::size_t slider, int side, double w) const {
-  const Branch& b = network_.sliders[slider].branch;
-  if (follows_speed(slider) && !along_curves_) w = trial().velocity[at(b.a)] - trial().velocity[at(b.b)];
-  const Bounds bounds = bounds_at(slider, side, w);
-  const Dual bound = broken_[slider] ? bounds.sliding : bounds.breakaway;
-  // A curve that overflows resists any force.
-  if (std::isnan(bounds.sliding.value)) return {side * w, std::numeric_limits<double>::infinity(), 0};
-  const bool rises = follows_speed(slider) && side * w >= 0;
-  return {side * w, bound.value, rises ? std::max(0.0, side * (follows_[slider] == b.a ? 1 : -1) * bound.derivative) : 0};
 }
 
 ConvexNetwork SteadyStateSolver::velocity_problem() const {
   ConvexNetwork problem(static_cast<int>(velocity_.size()));
   for (std::size_t n = 0; n < velocity_.size(); ++n) {
     const NodeId node = static_cast<NodeId>(n);
-    if (leader_[n] != node) {
+    if (groups_.leader(node) != node) {
       problem.fix(slot(node), 0);  // its leader represents it
-    } else if (held(node)) {
+    } else if (groups_.held(node)) {
       problem.fix(slot(node), velocity_[n]);
     }
-    if (load_[n] != 0) problem.load(leader(node), load_[n]);
+    if (load_[n] != 0) problem.load(groups_.slot(node), load_[n]);
   }
-  add_trains(problem, [&](NodeId node) { return leader(node); });
+  add_trains(problem, [&](NodeId node) { return groups_.slot(node); });
   return problem;
 }
 
@@ -177,9 +140,9 @@ void SteadyStateSolver::add_rates(ConvexNetwork& problem, double scale) const {
   for (const Laws<RateBatch>& laws : network_.rate_laws) {
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {
       const Branch& b = network_.rates[at(laws.first) + i];
-      if (together(b)) continue;
+      if (groups_.together(b)) continue;
       const double force = scale > 0 ? scale : coming_force(*laws.batch, i, reach);
-      problem.add(leader(b.a), leader(b.b), rate_law(*laws.batch, i, force));
+      problem.add(groups_.slot(b.a), groups_.slot(b.b), rate_law(*laws.batch, i, force));
     }
   }
 }
@@ -197,21 +160,8 @@ double SteadyStateSolver::natural_speed(double force) const {
   return speed;
 }
 
-/// Refuses a problem without a solution; values beyond `far` have run away.
-void SteadyStateSolver::refuse_unbalanced(const ConvexNetwork& problem, ConvexNetwork::Outcome outcome, double far) const {
-  if (outcome == ConvexNetwork::Outcome::solved) return;
-  std::vector<NodeId> nodes;
-  for (std::size_t n = 0; n < structure_.rank.size(); ++n) {
-    const int own = structure_.rank[n];
-    const bool ran = std::find(problem.runaways().begin(), problem.runaways().end(), own) != problem.runaways().end();
-    if (ran || std::abs(problem.value(own)) > far) nodes.push_back(static_cast<NodeId>(n));
-  }
-  if (!nodes.empty()) report_acceleration(nodes);
-  report_undecided(network_, kind() + ":");
-}
-
 void SteadyStateSolver::take_velocities(const ConvexNetwork& problem) {
-  for (std::size_t n = 0; n < velocity_.size(); ++n) velocity_[n] = problem.value(leader(static_cast<NodeId>(n)));
+  for (std::size_t n = 0; n < velocity_.size(); ++n) velocity_[n] = problem.value(groups_.slot(static_cast<NodeId>(n)));
 }
 
 /// Solves once more, with sticking elements rigid and slipping ones as forces: this removes the effect of regularising slopes.
@@ -224,67 +174,42 @@ bool SteadyStateSolver::refine_velocities(double scale, TrainForceTrials& trials
   for (std::size_t k = 0; k < slip_.size(); ++k) {
     if (slip_[k] == 0) joined.join(network_.sliders[k].branch.a, network_.sliders[k].branch.b);
   }
-  lead(joined);
+  groups_.take(joined);
   ConvexNetwork problem = velocity_problem();
   const auto push = [&](const Branch& b, double f) {
-    problem.load(leader(b.a), -f);
-    problem.load(leader(b.b), f);
+    problem.load(groups_.slot(b.a), -f);
+    problem.load(groups_.slot(b.b), f);
   };
   for (std::size_t j = 0; j < laws_.size(); ++j) {
     const Branch& b = network_.deflections[j];
     const DeflectionBatch::Steady& s = laws_[j].steady;
     const double w = difference(b);
-    if (together(b)) continue;
+    if (groups_.together(b)) continue;
     if (s.rest > 0) {
       push(b, s.rest * laws_[j].direction);
     } else if (std::abs(s.slope * w) >= s.bound) {
       push(b, std::copysign(s.bound, w));
     } else {
-      problem.add(leader(b.a), leader(b.b), {.backward = s.slope, .forward = s.slope});
+      problem.add(groups_.slot(b.a), groups_.slot(b.b), {.backward = s.slope, .forward = s.slope});
     }
   }
   for (std::size_t k = 0; k < slip_.size(); ++k) {
     if (slip_[k] == 0) continue;
     const Branch& b = network_.sliders[k].branch;
     const double speed = slip_[k] * difference(b);
-    const Friction of = friction(k, slip_[k], difference(b));
+    const SteadyFriction::Curve of = friction_.around(k, slip_[k], difference(b));
     const double slope = of.slope_at(speed);
     push(b, slip_[k] * (of.at(speed) - slope * speed));
-    if (slope > 0) problem.add(leader(b.a), leader(b.b), {.backward = slope, .forward = slope});
+    if (slope > 0) problem.add(groups_.slot(b.a), groups_.slot(b.b), {.backward = slope, .forward = slope});
   }
   add_rates(problem, scale);
   const ConvexNetwork::Outcome outcome = problem.solve();
   // An excess so small that the regularising slopes have balanced it at a high speed.
-  if (outcome == ConvexNetwork::Outcome::unbounded) refuse_unbalanced(problem, outcome, std::numeric_limits<double>::infinity());
+  if (outcome == ConvexNetwork::Outcome::unbounded) report_.refuse_unbalanced(problem, outcome, std::numeric_limits<double>::infinity());
   if (outcome != ConvexNetwork::Outcome::solved) return true;
   take_velocities(problem);
   state_.train_force = problem.forces_of_equations();
   return agree(trials);
-}
-
-/// Refuses trains whose ends springs or motions hold at velocities that do not fit.
-void SteadyStateSolver::refuse_torn_trains() const {
-  for (const Network::Train& train : network_.trains) {
-    double sum = 0, size = 0;
-    for (std::size_t i = 0; i < 3; ++i) {
-      sum += train.factor[i] * velocity_[at(train.node[i])];
-      size += std::abs(train.factor[i] * velocity_[at(train.node[i])]);
-    }
-    if (std::abs(sum) <= numerics::equal_given_values * size) continue;
-    throw SimulationError(network_.spot_of(train.element), fmt::format(
-        "{}: prescribed motions, and springs between them, hold the nodes of transmission `{}` at velocities that do not fit its ratio, and would "
-        "stretch for ever", kind(), network_.scene->elements[at(train.element)].name));
-  }
-}
-
-void SteadyStateSolver::refuse_motion() const {
-  for (std::size_t n = 0; n < velocity_.size(); ++n) {
-    if (velocity_[n] == 0) continue;
-    throw SimulationError(network_.spot_of_node(static_cast<NodeId>(n)), fmt::format(
-        "{}: the forces are more than holds node `{}`, which goes on at {} under them; start from \"steady\", or apply "
-        "less force",
-        kind(), network_.node_name(static_cast<NodeId>(n)), with_unit(network_.node(static_cast<NodeId>(n)), velocity_[n], Quantity::velocity)));
-  }
 }
 
 }  // namespace rheonet

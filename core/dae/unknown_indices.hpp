@@ -2,6 +2,8 @@
 
 #include <vector>
 
+#include "core/dae/positions.hpp"
+
 namespace rheonet {
 
 /// The index into y of each unknown; -1 where a quantity is none.
@@ -11,6 +13,13 @@ struct UnknownIndices {
   std::vector<int> force;       ///< of each rate branch
   std::vector<int> position;    ///< of each node: of its distance from its parent (see Positions)
   std::vector<int> block;       ///< of each state of a block
+  int deflections_begin = 0, deflections_end = 0;  ///< Those of deflections are one after the other.
+  int count = 0;                ///< Number of unknowns.
+  /// Of each node: the row of the balance of forces on its group as a whole, that of the branch that leads to it.
+  std::vector<int> group_balance;
 };
+
+/// Numbers the unknowns of a network. `block_states`: the number of states that blocks have.
+UnknownIndices number_unknowns(const Network& network, const Structure& structure, const Positions& positions, std::size_t block_states);
 
 }  // namespace rheonet

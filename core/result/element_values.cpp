@@ -11,7 +11,7 @@ namespace rheonet {
 /// Force of an element beside that of its law (Component::beside).
 double OutputSampler::force_beside(int element) const {
   const auto found = network_.beside.find(element);
-  return found == network_.beside.end() ? 0 : -dae_->applied_force(found->second);
+  return found == network_.beside.end() ? 0 : -dae_->inputs().force[at(found->second)];
 }
 
 /// Force of the losses of a train at its first node.
@@ -51,7 +51,7 @@ double OutputSampler::element_force(int element, const Dae::View& view) const {
     case Role::motion:
       return StatePowers(*dae_).reaction(network.motions[at(place.index)].node);
     case Role::force:
-      return (network.forces[at(place.index)].resists ? -1 : 1) * dae_->applied_force(place.index);
+      return (network.forces[at(place.index)].resists ? -1 : 1) * dae_->inputs().force[at(place.index)];
     case Role::block:
     case Role::nothing:
       break;
@@ -108,7 +108,7 @@ double OutputSampler::stored_energy(int element, const Dae::View& view) const {
     const DeflectionBatch& batch = network_.batch_of(place.index, i);
     return batch.stored_energy(i, view.p[at(place.index)]);
   }
-  if (place.role == Role::force && network_.forces[at(place.index)].energy >= 0) return dae_->output(network_.forces[at(place.index)].energy);
+  if (place.role == Role::force && network_.forces[at(place.index)].energy >= 0) return dae_->inputs().blocks().out(network_.forces[at(place.index)].energy).value;
   if (place.role == Role::inerter) return StatePowers(*dae_).inerter_energy(at(place.index));
   if (place.role != Role::mass) return 0;
   const Network::Mass& m = network_.masses[at(place.index)];

@@ -240,7 +240,7 @@ class Explainer {
     for (std::size_t j = 0; j < network_.deflections.size(); ++j) {
       const int branch = static_cast<int>(j);
       std::size_t i = 0;
-      const bool creeps = dae.batch_of(branch, i).creeps(i);
+      const bool creeps = dae.network().batch_of(branch, i).creeps(i);
       const std::string rate = creeps ? "its rate is the velocity of its ends, less what flows" : "its rate is the velocity of its ends";
       add(dae.indices().deflection[at(branch)],
           {.quantity = "deflection", .unit = unit(network_.element_of(network_.deflections[j]), Quantity::position), .equation = in_tree[j] ? "the forces at its end balance" : rate},

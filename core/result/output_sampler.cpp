@@ -224,7 +224,7 @@ double OutputSampler::acceleration(NodeId end, const Dae::View& view, const std:
 double OutputSampler::displacement(std::size_t operand, const Dae::View& view) const {
   if (const auto [element, sign] = gauges_[operand]; element >= 0) {
     const Network::Place& place = network_.places[at(element)];
-    if (!place.paired) return sign * dae_->displacement(place.index);
+    if (!place.paired) return sign * dae_->places().displacement(place.index, dae_->viewed().p);
     const PairView pair(network_, place.index, view);
     return sign * (element == pair.pair.spring ? pair.pair.spring_sign * pair.stretch()
                                                : pair.pair.slider_sign * pair.slide());
@@ -293,7 +293,7 @@ double OutputSampler::value(std::size_t operand, const Dae::View& view, const st
     case Record::Channel::energy:
       return stored_energy(record.index, view);
     case Record::Channel::out:
-      return dae_->output(record.index);
+      return dae_->inputs().blocks().out(record.index).value;
     case Record::Channel::value:
       break;
     case Record::Channel::force:

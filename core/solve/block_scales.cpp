@@ -26,7 +26,7 @@ void BlockScales::find(Dae& dae, const Dae::View& view, const Magnitudes& seen, 
   if (network_.blocks.blocks.empty()) return;
   for (std::size_t k = 0; k < most_.size(); ++k) most_[k].assign(seen.unknown[k].size(), std::numeric_limits<double>::infinity());
   BlockSignals& blocks = dae.inputs().blocks();
-  for (std::size_t b = 0; b < output_seen_.size(); ++b) output_seen_[b] = std::max(output_seen_[b], std::abs(dae.output(static_cast<int>(b))));
+  for (std::size_t b = 0; b < output_seen_.size(); ++b) output_seen_[b] = std::max(output_seen_[b], std::abs(dae.inputs().blocks().out(static_cast<int>(b)).value));
   gains_.for_each([&](int block, BlockGains::Of of, int index, double gain, double together) {
     // Divided by `together` twice: the error of each quantity also contains the errors of the others.
     const double allowed = output_seen_[at(block)] / (together * together * gain);

@@ -14,7 +14,7 @@ namespace {
 /// Branches that did not fire, but move against their direction about as fast as the slowest branch that fired. Friction at
 /// rest may hold such branches together: they reverse at the same event.
 std::vector<NetworkEvents::Turned> turning_along(const std::vector<NetworkEvents::Turned>& all, const std::vector<int>& switched,
-                                                 const EventTransition::Fired& fired) {
+                                                 const FiredGuards& fired) {
   double speed = std::numeric_limits<double>::infinity();
   for (const NetworkEvents::Turned& one : all) {
     if (contains(one.slides ? fired.sliders : fired.turns, one.branch)) speed = std::min(speed, one.speed);
@@ -49,9 +49,9 @@ std::vector<char> at_once(System& system, double t, const std::vector<double>& y
 
 /// The laws in parallel with one that is no longer held at rest, all of which leave it.
 std::vector<int> release(Dae& dae, int branch, double flow, Fired& fired) {
-  std::vector<int> released = dae.release_parallel(branch, flow);
+  std::vector<int> released = dae.sliding_modes().release(branch, flow, dae.viewed().p);
   std::size_t i = 0;
-  std::vector<int>& list = dae.batch_of(branch, i).direction(i) == 0 ? fired.sudden.rests : fired.sudden.starts;
+  std::vector<int>& list = dae.network().batch_of(branch, i).direction(i) == 0 ? fired.sudden.rests : fired.sudden.starts;
   list.push_back(branch);
   list.insert(list.end(), released.begin(), released.end());
   return released;
@@ -80,7 +80,7 @@ Fired take_events(System& system, double t, const std::vector<double>& y, const 
     // Several events of one branch, or of branches released in parallel, may coincide: the memory is switched once.
     if (contains(switched, branch)) continue;
     std::size_t i = 0;
-    DeflectionBatch& batch = dae.batch_of(branch, i);
+    DeflectionBatch& batch = dae.network().batch_of(branch, i);
     const bool held = batch.holds(i);
     const int direction = batch.direction(i);
     switched.push_back(branch);
@@ -100,7 +100,7 @@ Fired take_events(System& system, double t, const std::vector<double>& y, const 
       continue;
     }
     std::size_t i = 0;
-    DeflectionBatch& batch = dae.batch_of(branch, i);
+    DeflectionBatch& batch = dae.network().batch_of(branch, i);
     batch.set_direction(i, p[at(branch)], flow[at(branch)], -batch.direction(i));
     fired.sudden.turns.push_back(branch);
     fired.elements.push_back(dae.network().deflections[at(branch)].element);
@@ -118,7 +118,7 @@ Fired take_contradictions(System& system, const std::vector<NetworkEvents::Contr
   const std::vector<double> p = system.dae.view(t, y.data(), yp.data()).p;
   for (const auto& [branch, velocity, which] : laws) {
     std::size_t i = 0;
-    DeflectionBatch& batch = system.dae.batch_of(branch, i);
+    DeflectionBatch& batch = system.dae.network().batch_of(branch, i);
     if (which < 0) {
       fired.sudden.starts.push_back(branch);
       batch.set_direction(i, p[at(branch)], velocity, velocity < 0 ? -1 : 1);

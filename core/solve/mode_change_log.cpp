@@ -51,7 +51,7 @@ class WithinStep {
 
   double deflection(int branch, double t) {
     const int unknown = dae_.indices().deflection[at(branch)];
-    if (unknown < 0) return dae_.driven_deflection(branch, t);
+    if (unknown < 0) return dae_.driven().deflection(at(branch), t);
     if (samples_[0].empty()) take_samples();
     double p[step_points];
     for (std::size_t k = 0; k < step_points; ++k) p[k] = samples_[k][static_cast<std::size_t>(unknown)];

@@ -163,13 +163,13 @@ class Run {
 
   /// Crosses time t, where inputs may jump (`stepped`) or guards have `fired`: selects modes, finds the new state, reports
   /// both.
-  void cross(double t, bool stepped, const EventTransition::Fired& fired, const Round& round = {0, 0}) {
+  void cross(double t, bool stepped, const FiredGuards& fired, const Round& round = {0, 0}) {
     if (stepped) {
       inputs_.enter(t, inputs_.blocks().jumps());
     } else {
       inputs_.mark(t);
     }
-    EventTransition::Change change = transition_.cross(t, horizon(t), stepped, fired, state_, modes_, slider_force_);
+    EventChange change = transition_.cross(t, horizon(t), stepped, fired, state_, modes_, slider_force_);
     change.heat += round.heat;
     statistics_.notes.insert(statistics_.notes.end(), change.notes.begin(), change.notes.end());
     const std::shared_ptr<System> before = system_;
@@ -201,7 +201,7 @@ class Run {
       if (t > 0) tell(event);
     }
     if (!change.impacts.empty()) impact_ = t;
-    for (const EventTransition::Change::Impact& impact : change.impacts) {
+    for (const EventChange::Impact& impact : change.impacts) {
       if (t > 0) tell({t, impact.element, "impact", impact.side});
     }
     observer_.begin(dae, system_->consistency, t, y_, yp_, change.heat);

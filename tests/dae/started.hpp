@@ -50,7 +50,7 @@ class Started {
   Dae::View view_;
 
  public:
-  const EventTransition::Change& jump;
+  const EventChange& jump;
 };
 
 inline doctest::Approx exactly(double value) { return doctest::Approx(value).epsilon(1e-12); }

@@ -29,7 +29,7 @@ class Probe {
   /// The state at the start, its derivative, and what its instant did.
   const std::vector<double>& y() const { return y_; }
   const std::vector<double>& yp() const { return yp_; }
-  const EventTransition::Change& change() const { return change_; }
+  const EventChange& change() const { return change_; }
 
   /// Integrates the scene and visits `samples` instants within every `every`th step. y' belongs to y by the equations
   /// themselves, not by the integrator's polynomial; the laws have the memories of that instant.
@@ -41,7 +41,7 @@ class Probe {
   Structure classified_;
   Start start_;
   Modes modes_;
-  EventTransition::Change change_;
+  EventChange change_;
   Structure structure_;
   std::unique_ptr<Dae> dae_;
   Dae* current_;
