@@ -424,7 +424,7 @@ TEST_CASE("rigid stop: mistakes are refused") {
   CHECK_EQ(with("stiffness = \"inf\", lower = -0.2, restitution = 1"), "");
   CHECK_EQ(with("stiffness = \"inf\", lower = -0.2, damping = 0"), "");
   says(with("stiffness = \"inf\", lower = 0.1, upper = 0.2"),
-       "element `s` cannot start with the displacement 0 m: it is rigid at its bound, 0.1 m; change the start position of node `x` or `ground`, or the bound");
+       "element `s` cannot start with the displacement 0 m: it is rigid at its bound, 0.1 m; change the start position of node `x`, or the bound");
   says(with("stiffness = \"inf\", lower = 0.1, upper = 0.2", "x = { position = 0.3 }"), "with the displacement 0.3 m: it is rigid at its bound, 0.2 m");
   CHECK_EQ(with("stiffness = \"inf\", lower = 0.1, upper = 0.2", "x = { position = 0.2 }"), "");
   const auto driven = [](const std::string& motion) {

@@ -311,7 +311,7 @@ scene.toml:4:64: error: a point of a table is an array of two values, [input, ou
 n = { type = "torque", at = "shaft", torque = { block = "l" } }
 )~",
        R"~(
-scene.toml:4:65: error: the inputs of a table must not decrease
+scene.toml:4:65: error: the inputs of a table must not decrease, but 1 follows 2
     4 | l = { type = "lookup", in = "shaft.velocity", table = [[2, 1], [1, 0]] }
       |                                                                 ^
 )~"},

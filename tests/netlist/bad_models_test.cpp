@@ -206,7 +206,7 @@ many = { type = "m", at = "x", k = "4.5 N/m", repeat = { count = 3, arrange = "p
 scene.toml:4:27: error: check `soft`: k must be below the limit (in `hard`)
     4 | check = { soft = { that = "k < limit", error = "k must be below the limit" } }
       |                           ^
-  `k < limit` does not hold: k = 4 kg*s^-2, limit = 3 kg*s^-2
+  `k < limit` does not hold: k = 4 N/m, limit = 3 N/m
 )~"},
       {"a model of one domain, and one for both with three ports",
        R"~(

@@ -72,7 +72,7 @@ TEST_CASE("sliders: messages for parameters that do not fit") {
   check_refused("coulomb = { block = \"g1\" }, normal = \"7 N\"", "5:72",
                 of_normal + " from block `g1`: expected a number without a unit, found a force (N)", "", g);
   check_refused("coulomb = 0.3, normal = { block = \"k1.force\" }", "4:86", "no block is called `k1.force`", from_block);
-  check_refused("normal = \"7 N\"", "4:1", "a `slider` needs `coulomb`", "a force, in N");
+  check_refused("normal = \"7 N\"", "4:1", "a `slider` needs `coulomb`", "a number without a unit, which multiplies `normal`");
 }
 
 TEST_CASE("signals for parameters that take none, and parameters of an element without any") {

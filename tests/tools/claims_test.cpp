@@ -23,7 +23,7 @@ TEST_CASE("a check that fails is a warning of `run` and `check`, at its place; t
     CAPTURE(command);
     const Finished result = folder.shell("rheonet " + command + " scene.toml", 0);
     CHECK(contains(result.err, "warning: check `soft`: too stiff for the hand\n"));
-    CHECK(contains(result.err, "`k < least` does not hold: k = 100 kg*s^-2, least = 50 kg*s^-2\n"));
+    CHECK(contains(result.err, "`k < least` does not hold: k = 100 N/m, least = 50 N/m\n"));
     CHECK_FALSE(result.out.empty());
   }
   CHECK(folder.shell("rheonet run -q scene.toml --set parameters.k='49 N/m'", 0).err == "");
