@@ -10,8 +10,6 @@ namespace rheonet {
 using What = Blocks::Sensor::What;
 
 void BlockSensors::move_nodes(const double* y) {
-  const auto by_block = [](const Network::Motion& m) { return m.block >= 0; };
-  if (std::none_of(network_.motions.begin(), network_.motions.end(), by_block)) return;
   BlockSignals& blocks = inputs_.blocks();
   for (std::size_t k = 0; k < index_.block.size(); ++k) blocks.state[k] = y[index_.block[k]];
   for (std::size_t k = 0; k < blocks.sensed.size(); ++k) {

@@ -15,7 +15,7 @@ class BlockSensors {
   BlockSensors(const Network& network, const Structure& structure, Inputs& inputs, const UnknownIndices& index)
       : network_(network), structure_(structure), inputs_(inputs), index_(index) {}
 
-  /// Evaluates the velocities that blocks give before the laws, as they need states and positions alone.
+  /// Evaluates the velocities that blocks give before the laws, as they need states and positions alone. Only for Inputs::moves_by_blocks.
   void move_nodes(const double* y);
   /// Of each node, each deflection branch, and each rate law.
   struct Felt { const std::vector<double>&velocity, &deflection, &rate_argument; };

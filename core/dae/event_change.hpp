@@ -16,7 +16,7 @@ struct FiredGuards {
   std::vector<int> rests;   ///< Deflection branches held at rest in parallel with a slider at its bound, which sticks now.
 };
 
-/// What an event has changed besides the state.
+/// Changes by an event, besides those of the state.
 struct EventChange {
   double heat = 0;                 ///< Turned into heat at the event [J].
   std::vector<std::string> notes;  ///< Messages on impulses.

@@ -105,7 +105,11 @@ class Inputs {
   /// The box of such a slider if the velocity of the node were this one, all else being as last sensed. Derivatives are by that velocity.
   Box supposed_box(std::size_t slider, NodeId node, double velocity);
   /// Bounds of the losses of trains with these forces [N].
-  void transmit(const std::vector<double>& train_force);
+  void transmit(const std::vector<double>& train_force) {
+    if (!losses_.empty()) bound_losses(train_force);
+  }
+  /// A block moves a node.
+  bool moves_by_blocks() const { return moves_by_blocks_; }
   /// Losses of a train at its present speed.
   const Loss& loss(std::size_t train) const { return losses_[train]; }
   /// Derivative of the sliding force of a slider to one side by its varying parameter number `which`.
@@ -140,6 +144,7 @@ class Inputs {
   double position_of(const Motion& m, TimePoint t) const;
   static double largest_velocity_of(const Motion& m, double begin, double end);
   const std::function<Loss(std::span<const double>)>& loss_law(const Network::Slider& slider) const;
+  void bound_losses(const std::vector<double>& train_force);
   void bound_losses(std::size_t train);
   void mark(double t, bool fresh);
   void look_ahead(double t);

@@ -21,7 +21,7 @@ struct EventState {
   const FiredGuards& fired;
   const State& state;
   const Modes& modes;
-  const std::vector<double>& force;    ///< Of the sliders [N].
+  const std::vector<double>& force;    ///< Forces of the sliders [N].
   const NodalForces& nodal;
   const std::vector<double>& accepted; ///< For each node: the imbalance that counts as a balance [N].
 };

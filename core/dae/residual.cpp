@@ -28,7 +28,7 @@ void Dae::gather(double t, const double* y) {
   for (std::size_t n = 0; n < v_.size(); ++n) {
     if (index_.velocity[n] >= 0) v_[n] = y[index_.velocity[n]];
   }
-  sensors_.move_nodes(y);
+  if (inputs_->moves_by_blocks()) sensors_.move_nodes(y);
   for (std::size_t m = 0; m < network_->motions.size(); ++m) {
     const std::size_t node = at(network_->motions[m].node);
     v_[node] = inputs_->velocity[m];

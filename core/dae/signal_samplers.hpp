@@ -27,7 +27,7 @@ class SignalSamplers {
   /// The sample that was held at a time, which `reach` of `hold` still covers [s].
   double value(int block, double t) const;
 
-  /// What a sample would be now: the present input of this block, rounded to its quantum.
+  /// Gives the sample that a block would take now: its present input, rounded to its quantum.
   using Sample = std::function<double(int block)>;
   /// Samples that have begun take their input as it is now, which may jump at the same time: until `hold` they can be taken again.
   void take(const Sample& sample);

@@ -15,7 +15,7 @@ struct UnknownIndices {
   std::vector<int> block;       ///< of each state of a block
   int deflections_begin = 0, deflections_end = 0;  ///< Those of deflections are one after the other.
   int count = 0;                ///< Number of unknowns.
-  /// Of each node: the row of the balance of forces on its group as a whole, that of the branch that leads to it.
+  /// Of each node: the row in which the forces on its whole group balance. It is that of the branch that leads to the node.
   std::vector<int> group_balance;
 };
 

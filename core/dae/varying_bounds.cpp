@@ -87,7 +87,7 @@ void Inputs::bound_losses(std::size_t k) {
   box_[at(train.friction)] = {{forward, forward}, {backward, backward}};
 }
 
-void Inputs::transmit(const std::vector<double>& train_force) {
+void Inputs::bound_losses(const std::vector<double>& train_force) {
   train_force_ = train_force;
   for (std::size_t k = 0; k < network_->trains.size(); ++k) bound_losses(k);
 }

@@ -9,8 +9,8 @@
 
 namespace rheonet {
 
-/// Events within a step that its ends do not show: a force may exceed its bound and return, a slipping mass may reverse and return, a
-/// law that is held at rest or not in contact may be left and be met again.
+/// Events within a step that the guards at its ends do not show. A force may exceed its bound and return; a slipping mass may reverse and
+/// return; a contact may close and open again.
 class MissedEvents {
  public:
   /// Both must outlive this.

@@ -205,6 +205,7 @@ class Run {
       if (t > 0) tell({t, impact.element, "impact", impact.side});
     }
     observer_.begin(dae, system_->consistency, t, y_, yp_, change.heat);
+    driven_ = inputs_.fastest() > 0 || std::isfinite(inputs_.next_signal_break());
     const int condition = network_.scene->stop_when;
     ended_ = condition >= 0 && inputs_.blocks().out(condition).value != 0;
   }
@@ -293,7 +294,7 @@ class Run {
       t = system_->integrator.time();
       if (leaps_.passed(t, outcome == Integrator::Outcome::event)) limit_step();
       if (settings_.profile) settings_.profile->step(system_->integrator);
-      error_model_.follow(t, view, inputs_.fastest() > 0 || std::isfinite(inputs_.next_signal_break()));
+      error_model_.follow(t, view, driven_);
       tolerances_.trust(true);
       if (allow_errors() <= numerics::least_step_tolerance && !on_arc_) ++statistics_.finest_steps;
       tolerances_.follow(t, system_->integrator.y(), system_->integrator.yp(), view);
@@ -498,6 +499,7 @@ class Run {
   ModeChangeLog mode_changes_;
   std::vector<double> slider_force_;
   double left_ = 0;  ///< Time of `state_` [s].
+  bool driven_ = false;  ///< An input oscillates, or jumps later.
   bool ended_ = false;   ///< By `simulate.stop_when`, at the last event.
   std::vector<double> closing_;      ///< Velocity with which the contact of each slider has closed last [m/s].
   double impact_ = -1, hopped_ = 0;  ///< Time of the last impact after which a contact was thrown back, and of the one before [s].
