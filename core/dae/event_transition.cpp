@@ -108,8 +108,13 @@ EventChange EventTransition::cross(double t, double horizon, bool stepped, const
   PositionSteps::Steps steps = steps_.at_event(t, stepped, state, change.notes);
   const bool driven = std::any_of(steps.dx.begin(), steps.dx.end(), [](double d) { return d != 0; });
   const bool delayed = take_delayed_steps(net_, t, state, change);
-  impacts_.resolve(t, steps.momentum, fired, modes, state, change);
-  bounds_.begin(fired, modes, stepped);
+  // A brake that closes finds its ends at rest if they move more slowly than is resolved: no error of steps makes it slip.
+  FiredGuards stopped = fired;
+  for (const int k : fired.slow) {
+    if (bounds_.sliding(at(k), modes.slider[at(k)]) > 0) stopped.sliders.push_back(k);
+  }
+  impacts_.resolve(t, steps.momentum, stopped, modes, state, change);
+  bounds_.begin(stopped, modes, stepped);
   errors_.begin();
   // Between steps of the inputs, any imbalance before something breaks away is an error of the integrator's steps.
   bool smooth = !stepped && !delayed;

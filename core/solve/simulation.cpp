@@ -148,11 +148,22 @@ class Run {
       system_->consistency.derivative(t, y, yp);
       system_->consistency.second_derivative(t, difference, y, yp, ypp);
     }
-    cross(t, true, {});
+    cross(t, true, slow_sliders());
     if (!often || system_ != before || tolerances_.blind()) return false;
     system_->consistency.second_derivative(t, difference, y_, yp_, new_ypp);
     const double ahead = time_until(std::min(inputs_.next_break(), settings_.stop), t);
     return stay_close({y, yp, ypp}, {y_, yp_, new_ypp}, ahead, tolerances_.values());
+  }
+
+  FiredGuards slow_sliders() const {
+    FiredGuards result;
+    for (std::size_t k = 0; k < modes_.slider.size(); ++k) {
+      const Network::Slider& slider = network_.sliders[k];
+      if (slider.varying.empty() || slider.train >= 0 || modes_.slider[k] == Modes::stuck || slider_force_[k] != 0) continue;
+      const double velocity = state_.velocity[at(slider.branch.a)] - state_.velocity[at(slider.branch.b)];
+      if (std::abs(velocity) <= tolerances_.dead_bands().slider(static_cast<int>(k))) result.slow.push_back(static_cast<int>(k));
+    }
+    return result;
   }
 
   /// One of several crossings of one time: how many came before, and the heat that they released [J].
