@@ -211,8 +211,8 @@ test('a curve is sketched by mouse or by keys, and compared', async () => {
 
 test('mistakes of a lesson are named with file, line and column', async () => {
   const wrong = {
-    'prompt = "A belt is stretched suddenly and held. What does its force do?"\n': ['', /belt\.lesson:4:2: error: \[predict\] needs `prompt`/],
-    'y      = "k1.force"': ['y      = "k1.forse"', /belt\.lesson:6:10: error: the netlist has no record `k1\.forse`[^]*did you mean `k1\.force`\?/],
+    'prompt = "A belt is stretched suddenly and held. What does its force do?"\n': ['', /belt\.lesson:5:2: error: \[predict\] needs `prompt`/],
+    'y      = "k1.force"': ['y      = "k1.forse"', /belt\.lesson:7:10: error: the netlist has no record `k1\.forse`[^]*did you mean `k1\.force`\?/],
     'y     = "k*x0"': ['y     = "k*x"', /the curve `y`: .*`x`/],
     'y     = "k*x0" ': ['y     = "x0"', /the curve `y`: .*expected a force \(N\), found a length \(m\)/],
     'y     = "k*x0*exp(-t*k/B)"': ['y     = [1, "2 N"]', /a curve `y` that is drawn has two or more numbers/],
@@ -220,6 +220,7 @@ test('mistakes of a lesson are named with file, line and column', async () => {
     '"parameters.B"': ['"parameters.C"', /`parameters\.C` is no number of the netlist that has a slider/],
     '"50 N*s/m"': ['"50 N"', /the preset `thin oil`: .*/],
     'level   = "beginner"': ['level   = "simple"', /`simple` is no level[^]*`beginner`, `intermediate` or `advanced`/],
+    'title   = { de = "Ein Riemen lässt nach" }': ['title   = "A belt relaxes"', /`title` must be a table[^]*title\.de = "\.\.\."/],
     'minutes = 10': ['minuts = 10', /unknown key `minuts`[^]*did you mean `minutes`\?/],
   };
   for (const [right, [instead, message]] of Object.entries(wrong)) {
@@ -231,6 +232,21 @@ test('mistakes of a lesson are named with file, line and column', async () => {
     await close();
   }
   writeFileSync(join(desk.folder, 'belt.lesson'), example);
+});
+
+test('the gallery, the page and the next lesson have the title in the language of the page', async () => {
+  const context = await chromium.newContext({ viewport: { width: 1200, height: 900 }, locale: 'de-DE' });
+  const { page, wrong } = await watched(context, server.origin);
+  await page.goto(server.address);
+  const card = page.locator('.card[data-file="teaching/oscillator-free.toml"]');
+  await card.waitFor();
+  assert.equal(await card.locator('.card-title').textContent(), 'Schwinger: frei, ohne Dämpfung');
+  assert.equal(await page.locator('.card[data-file="hard/bounces.toml"] .card-title').textContent(), 'A ball on a stiff stop, in a guide with dry friction');
+  await card.click();
+  await offered(page);
+  assert.equal(await page.locator('h1').textContent(), 'Schwinger: frei, ohne Dämpfung');
+  assert.deepEqual(wrong, []);
+  await context.close();
 });
 
 test('the gallery has level and minutes, the easiest first, and opens the lesson', async () => {

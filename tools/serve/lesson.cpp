@@ -84,6 +84,9 @@ json LessonReader::read() {
           diagnostics_.error(minutes->value.spot, "`minutes` is a number above 0, not " + describe(minutes->value));
         told["minutes"] = minutes->value.number;
       }
+      if (const TomlEntry* title = reader.find("title"); title && expect_table(title->value, "`title`", diagnostics_, "the title of the netlist in another language: title.de = \"...\"")) {
+        text_of(*title);
+      }
       told["demo"] = read_demo(reader.find("demo"));
       told["explain"] = optional_text(reader, "explain");
       if (const TomlEntry* predict = reader.require("predict", top, "[predict] asks what the student expects"); predict) told["predict"] = read_prediction(*predict);
@@ -326,6 +329,11 @@ LessonGlance glance_at_lesson(const std::string& text) {
   if (!document) return seen;
   if (const TomlEntry* level = document->find("level")) seen.level = level->value.text;
   if (const TomlEntry* minutes = document->find("minutes")) seen.minutes = minutes->value.number;
+  if (const TomlEntry* title = document->find("title")) {
+    for (const TomlEntry& each : title->value.entries) {
+      if (each.value.is_string()) seen.titles[each.key] = each.value.text;
+    }
+  }
   return seen;
 }
 

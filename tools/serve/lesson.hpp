@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
@@ -19,6 +20,7 @@ std::string lesson_file_of(const std::string& netlist);
 struct LessonGlance {
   std::string level;  ///< "beginner", "intermediate", "advanced"; "": unspecified.
   double minutes = 0;
+  std::map<std::string, std::string> titles;  ///< Of the netlist, in other languages: "de".
 };
 LessonGlance glance_at_lesson(const std::string& text);
 

@@ -124,7 +124,7 @@ json listing_of(const Folder& folder) {
   for (const Folder::Entry& each : listing.scenes) {
     scenes.push_back({{"file", each.file}, {"title", each.title}, {"about", each.about}});
     if (each.place) scenes.back()["place"] = *each.place;
-    if (each.lesson) scenes.back()["lesson"] = {{"level", each.lesson->level}, {"minutes", each.lesson->minutes}};
+    if (each.lesson) scenes.back()["lesson"] = {{"level", each.lesson->level}, {"minutes", each.lesson->minutes}, {"titles", each.lesson->titles}};
   }
   return {{"name", folder.path().filename().string()},
           {"may_be_written", folder.may_be_written()},

@@ -5,6 +5,7 @@ import { firstScene } from './first-scene.js';
 import { Gallery, inOrder } from './gallery.js';
 import { LessonDialog } from './lesson-dialog.js';
 import { lessonFileOf } from './lesson-text.js';
+import { titleOf } from './lesson.js';
 import { decode, encode } from './link.js';
 import { t } from './messages.js';
 import { showCode } from './qr-dialog.js';
@@ -69,6 +70,12 @@ export class Files {
   // The netlists beside this one that have a lesson, in the order of the gallery.
   lessons() {
     return this.folder.scenes.filter(({ file, lesson }) => lesson && folderOf(file) === folderOf(this.desk.current.file)).sort(inOrder);
+  }
+
+  // The title of this netlist in the language of the page; `title`: in its text.
+  titleHere(title) {
+    const listed = this.folder?.scenes.find(({ file }) => file === this.desk.current.file);
+    return listed?.title === title ? titleOf(listed) : title;
   }
 
   // `anew`: there is a way back to what was there before; `lesson`: the netlist is opened for its lesson.

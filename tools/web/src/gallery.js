@@ -1,12 +1,12 @@
 // The netlists of the folder, to choose from.
 import { open, task } from './api.js';
 import { element, schematicOf } from './dom.js';
-import { aboutLesson } from './lesson.js';
+import { aboutLesson, titleOf } from './lesson.js';
 import { t } from './messages.js';
 import { inWords } from './sections.js';
 
 const words = new Intl.Collator('en', { numeric: true });
-const byName = (a, b) => words.compare(a.title || a.file, b.title || b.file) || words.compare(a.file, b.file);
+const byName = (a, b) => words.compare(titleOf(a), titleOf(b)) || words.compare(a.file, b.file);
 // In the order of their first mention in the README of the folder; others come last.
 export const inOrder = (a, b) => (a.place ?? Infinity) - (b.place ?? Infinity) || byName(a, b);
 
@@ -58,7 +58,7 @@ export class Gallery {
   card(scene) {
     const picture = element('div', { class: 'card-picture', 'aria-hidden': 'true' });
     const card = element('button', { type: 'button', class: 'card', 'data-file': scene.file },
-      picture, element('span', { class: 'card-title' }, scene.title || scene.file),
+      picture, element('span', { class: 'card-title' }, titleOf(scene)),
       scene.lesson ? element('span', { class: 'card-lesson' }, t('Lesson: {about}', { about: aboutLesson(scene.lesson) })) : null,
       element('span', { class: 'card-about' }, scene.about || scene.file),
       scene.title && scene.about && this.names.get(scene.title) > 1 ? element('code', { class: 'card-file' }, scene.file.split('/').at(-1)) : null);

@@ -4,11 +4,14 @@ import './lesson.css';
 import { task } from './api.js';
 import { element } from './dom.js';
 import { LoopChart } from './loop-chart.js';
+import { language } from './language.js';
 import { t } from './messages.js';
 import { predictionOf } from './prediction.js';
 import { paragraphs, richText } from './rich-text.js';
 
 export const levels = { beginner: t('beginner'), intermediate: t('intermediate'), advanced: t('advanced') };
+// The title of a netlist of the gallery, in the language of the page if its lesson has one.
+export const titleOf = ({ file, title, lesson }) => lesson?.titles?.[language] || title || file;
 export const aboutLesson = ({ level, minutes }) => t('{level}, {minutes} minutes', { level: levels[level] ?? level, minutes });
 
 export class Lesson {
@@ -168,7 +171,7 @@ export class Lesson {
     const next = all[all.findIndex(({ file }) => file === this.file) + 1];
     return element('p', { class: 'onward' },
       element('button', { type: 'button', onclick: () => this.onagain() }, t('Begin this lesson again')),
-      next ? element('button', { type: 'button', onclick: () => this.onopen(next.file) }, t('Next lesson: {title}', { title: next.title })) : null);
+      next ? element('button', { type: 'button', onclick: () => this.onopen(next.file) }, t('Next lesson: {title}', { title: titleOf(next) })) : null);
   }
 
   runCurve() {

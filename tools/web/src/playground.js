@@ -323,7 +323,7 @@ class Playground {
   }
 
   showTitle(title) {
-    this.title.textContent = title || this.current.file;
+    this.title.textContent = this.files.titleHere(title) || this.current.file;
     document.title = `${this.title.textContent} – rheonet`;
   }
 
