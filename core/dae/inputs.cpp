@@ -7,6 +7,7 @@
 
 #include "core/base/numerics.hpp"
 #include "core/dae/time_functions.hpp"
+#include "core/netlist/curve.hpp"
 
 namespace rheonet {
 
@@ -29,6 +30,9 @@ Inputs::Inputs(const Network& network, const Structure& classified, double start
     : network_(&network),
       stop_(network.scene->stop - network.scene->start),
       moves_by_blocks_(false),
+      functions_of_time_(std::any_of(network.blocks.blocks.begin(), network.blocks.blocks.end(), [](const Blocks::Block& block) {
+        return block.function && block.function->uses(block.function->variables() - 1);
+      })),
       blocks_(network, classified),
       history_(network, blocks_.past().delays(), blocks_.past().reach(), blocks_.past().channels(), blocks_.past().longest_step(), firm(classified)) {
   base_.assign(blocks_.slopes().atoms(), {});
@@ -330,6 +334,20 @@ std::optional<TimeFunctions> Inputs::time_functions() const {
   if (!simple || all.degree > 2 || omegas.size() > numerics::arc_frequencies) return {};
   all.omegas.assign(omegas.begin(), omegas.end());
   return all;
+}
+
+std::vector<double> Inputs::hidden_times(double a, double b, double spacing) const {
+  std::vector<double> result;
+  const auto look = [&](const Piece& piece) {
+    if (!piece.curve) return;
+    if (const double t = piece.curve->farthest_point(a, b); !std::isnan(t)) result.push_back(t);
+  };
+  for (const Motion& m : motions_) look(m.piece);
+  for (const Force& f : forces_) look(f.piece);
+  for (const BlockPast::Generator& g : blocks_.past().generators()) look(*g.piece);
+  for (double k = std::floor(a / spacing) + 1; functions_of_time_ && k * spacing < b; ++k) result.push_back(k * spacing);
+  std::sort(result.begin(), result.end());
+  return result;
 }
 
 double Inputs::fastest() const {

@@ -117,6 +117,10 @@ class Inputs {
   /// Derivative of Loss::line by this parameter of the slider that stands for the losses of a train.
   Loss::Line loss_slope(std::size_t slider, int side, bool b_drives, std::size_t which) const;
 
+  /// Times after a and before b at which functions of time may be what they do not show at a and b. Of a smooth table it is the point that is
+  /// farthest from the cubic through the ends; of a function block over the time they are `spacing` apart.
+  std::vector<double> hidden_times(double a, double b, double spacing) const;
+
   /// The largest velocity of a prescribed motion, other than by a block, within a time of the present pieces [m/s].
   double largest_velocity(double begin, double end) const;
 
@@ -169,7 +173,7 @@ class Inputs {
   TimePoint exact_;       ///< See refine.
   TimePoint since_;       ///< The last `enter` or `mark`.
   double stop_;            ///< End of the run [s].
-  bool moves_by_blocks_;
+  bool moves_by_blocks_, functions_of_time_;
   BlockSignals blocks_;
   DelayHistory history_;  ///< After blocks_, which gives its channels.
   double time_;

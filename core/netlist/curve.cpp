@@ -136,6 +136,21 @@ double Curve::area_of_area(double from, double to) const {
   return (sum(b) - sum(a)) - (to - from) * area(from);
 }
 
+double Curve::farthest_point(double a, double b) const {
+  const double length = b - a, va = value(a), vb = value(b), ra = rate(a) * length, rb = rate(b) * length;
+  double farthest = std::numeric_limits<double>::quiet_NaN(), most = -1;
+  for (auto time = std::upper_bound(times_.begin(), times_.end(), a); time != times_.end() && *time < b; ++time) {
+    const double x = (*time - a) / length, y = 1 - x;
+    const double through_ends = y * y * (va * (1 + 2 * x) + ra * x) + x * x * (vb * (1 + 2 * y) - rb * y);
+    const double off = std::abs(values_[static_cast<std::size_t>(time - times_.begin())] - through_ends);
+    if (off > most) {
+      most = off;
+      farthest = *time;
+    }
+  }
+  return farthest;
+}
+
 double Curve::area(double t) const {
   const Cubic c = at(t);
   return c.area + c.tau * (c.value + c.tau * (c.rate / 2 + c.tau * (c.square / 3 + c.tau * c.cube / 4)));

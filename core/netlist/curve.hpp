@@ -23,6 +23,9 @@ class Curve {
   double area_of_area(double from, double to) const;
 
   const std::vector<double>& rates() const { return rates_; }  ///< at the points
+  /// The point after a and before b at which the curve is farthest from the cubic through its values and rates at a and b; NaN if
+  /// there is no point between them [s].
+  double farthest_point(double a, double b) const;
   double first() const { return times_.front(); }              ///< s
 
   // Bounds on the magnitudes between the first point and the last.

@@ -63,7 +63,16 @@ bool MissedEvents::any_dips(const Dae::View& end) {
   return any;
 }
 
-std::optional<MissedEvents::Missed> MissedEvents::find(const Integrator& integrator, const Dae::View& end) {
+double MissedEvents::crossing(const Integrator& integrator, double positive, double negative, std::size_t event) {
+  while (negative - positive > numerics::last_digit_ulps * std::numeric_limits<double>::epsilon() * std::abs(negative)) {
+    const double half = (positive + negative) / 2;
+    if (half <= positive || half >= negative) break;
+    (at_time(integrator, half, event) > 0 ? positive : negative) = half;
+  }
+  return negative;
+}
+
+std::optional<MissedEvents::Missed> MissedEvents::find(const Integrator& integrator, const Dae::View& end, const std::vector<double>& hidden) {
   const double a = integrator.previous_time(), b = integrator.time();
   std::optional<Missed> first;
   if (!(b > a)) return first;
@@ -90,12 +99,20 @@ std::optional<MissedEvents::Missed> MissedEvents::find(const Integrator& integra
       gm = g;
     }
     if (!(gm < 0) || !(gl > 0)) continue;
-    while (middle - left > numerics::last_digit_ulps * std::numeric_limits<double>::epsilon() * std::abs(middle)) {
-      const double half = (left + middle) / 2;
-      if (half <= left || half >= middle) break;
-      (at_time(integrator, half, watched_[i]) > 0 ? left : middle) = half;
-    }
+    middle = crossing(integrator, left, middle, watched_[i]);
     if (!first || middle < first->t) first = Missed{middle, static_cast<int>(watched_[i])};
+  }
+  std::vector<double> g;
+  for (const double t : hidden) {
+    if (first && t >= first->t) break;
+    integrator.interpolate(t, 0, step_y_);
+    integrator.interpolate(t, 1, step_yp_);
+    all_at(events_.seen_between(t, step_y_.data(), step_yp_.data()), g);
+    for (std::size_t i = 0; i < watched_.size(); ++i) {
+      if (!(g[i] < 0) || !(left_[i] > 0)) continue;
+      const double crossed = crossing(integrator, a, t, watched_[i]);
+      if (!first || crossed < first->t) first = Missed{crossed, static_cast<int>(watched_[i])};
+    }
   }
   dae_.view(b, integrator.y().data(), integrator.yp().data());
   return first;

@@ -17,9 +17,10 @@ class MissedEvents {
   MissedEvents(Dae& dae, NetworkEvents& events);
   /// Call at the beginning of an interval between discontinuities, after NetworkEvents::begin.
   void begin(double t, const double* y, const double* yp);
-  /// The first such event in the last step. `end` is the view of the end of the step, which is the current view afterwards too.
+  /// The first such event in the last step. `end` is the view of the end of the step, which is the current view afterwards too. Guards are looked
+  /// at in the middle of the step, and at the `hidden` times of inputs.
   struct Missed { double t; int which; };
-  std::optional<Missed> find(const Integrator& integrator, const Dae::View& end);
+  std::optional<Missed> find(const Integrator& integrator, const Dae::View& end, const std::vector<double>& hidden);
 
  private:
   /// A slider that slips between known or massive nodes, and the number of its guard. `slope`: rate of its slip speed at the end of
@@ -29,6 +30,8 @@ class MissedEvents {
   /// Finds left_, middle_ and right_ over the step from a to b.
   void look_at_step(const Integrator& integrator, double a, double b);
   double at_time(const Integrator& integrator, double t, std::size_t event);
+  /// The time between these at which the guard crosses 0 [s].
+  double crossing(const Integrator& integrator, double positive, double negative, std::size_t event);
   void all_at(const Dae::View& view, std::vector<double>& g) const;
 
   Dae& dae_;

@@ -21,7 +21,7 @@
 #include "core/solve/global_error_model.hpp"
 #include "core/solve/indeterminate_motion.hpp"
 #include "core/solve/initial_scales.hpp"
-#include "core/solve/leapt_law.hpp"
+#include "core/solve/leapt_changes.hpp"
 #include "core/solve/mode_cache.hpp"
 #include "core/solve/regularisation.hpp"
 #include "core/solve/settling_contacts.hpp"
@@ -293,12 +293,17 @@ class Run {
         continue;
       }
       const Dae::View& view = view_of_step();
-      if (const auto missed = settings_.locate_events && !on_arc_ ? system_->missed_events.find(system_->integrator, view) : std::nullopt) {
+      const std::vector<double> hidden = on_arc_ ? std::vector<double>{} : hidden_times();
+      if (leaps_.repeat_for_inputs(*system_, tolerances_, hidden)) {
+        repeat_step(until, shrink);
+        continue;
+      }
+      if (const auto missed = settings_.locate_events && !on_arc_ ? system_->missed_events.find(system_->integrator, view, hidden) : std::nullopt) {
         system_->integrator.cut(missed->t, missed->which);
         outcome = Integrator::Outcome::event;
         view_of_step();
       }
-      if (outcome == Integrator::Outcome::event && settings_.locate_events && leaps_.repeat(*system_, tolerances_)) {
+      if (outcome == Integrator::Outcome::event && settings_.locate_events && leaps_.repeat_to_event(*system_, tolerances_)) {
         repeat_step(until, shrink);
         continue;
       }
@@ -346,6 +351,11 @@ class Run {
       if (t >= until) return until;
       begin_steps(t, until, shrink);
     }
+  }
+
+  std::vector<double> hidden_times() const {
+    const Integrator& integrator = system_->integrator;
+    return inputs_.hidden_times(integrator.previous_time(), integrator.time(), settings_.stop / numerics::looks_at_functions);
   }
 
   /// Goes back to the beginning of the last step, and on in parts of it.
@@ -516,7 +526,7 @@ class Run {
   double impact_ = -1, hopped_ = 0;  ///< Time of the last impact after which a contact was thrown back, and of the one before [s].
   bool stopped_ = false; ///< The last interval ended with a step that the integrator can continue from.
   long steps_ = 0;       ///< In the last interval.
-  LeapsOverLaws leaps_;
+  LeapsOverChanges leaps_;
   bool smooth_ = false;  ///< The last discontinuity was negligible.
   std::shared_ptr<System> system_;
   std::vector<double> y_, yp_;
