@@ -36,6 +36,10 @@ Inputs::Inputs(const Network& network, const Structure& classified, double start
       blocks_(network, classified),
       history_(network, blocks_.past().delays(), blocks_.past().reach(), blocks_.past().channels(), blocks_.past().longest_step(), firm(classified)) {
   base_.assign(blocks_.slopes().atoms(), {});
+  const auto is_smooth = [](const auto& of) { return of.signal.curves() != nullptr; };
+  for (const Network::Motion& m : network.motions) smooth_tables_ = smooth_tables_ || is_smooth(m);
+  for (const Network::Force& f : network.forces) smooth_tables_ = smooth_tables_ || is_smooth(f);
+  for (const Blocks::Block& block : network.blocks.blocks) smooth_tables_ = smooth_tables_ || is_smooth(block);
 
   for (const Network::Motion& m : network.motions) {
     Motion motion{.element = m.element, .block = m.block, .signal = m.signal, .by_position = m.position, .by_acceleration = m.acceleration, .piece = {}, .anchor_time = start};
@@ -336,7 +340,7 @@ std::optional<TimeFunctions> Inputs::time_functions() const {
   return all;
 }
 
-std::vector<double> Inputs::hidden_times(double a, double b, double spacing) const {
+std::vector<double> Inputs::find_hidden_times(double a, double b, double spacing) const {
   std::vector<double> result;
   const auto look = [&](const Piece& piece) {
     if (!piece.curve) return;

@@ -119,7 +119,9 @@ class Inputs {
 
   /// Times after a and before b at which functions of time may be what they do not show at a and b. Of a smooth table it is the point that is
   /// farthest from the cubic through the ends; of a function block over the time they are `spacing` apart.
-  std::vector<double> hidden_times(double a, double b, double spacing) const;
+  std::vector<double> hidden_times(double a, double b, double spacing) const {
+    return functions_of_time_ || smooth_tables_ ? find_hidden_times(a, b, spacing) : std::vector<double>();
+  }
 
   /// The largest velocity of a prescribed motion, other than by a block, within a time of the present pieces [m/s].
   double largest_velocity(double begin, double end) const;
@@ -151,6 +153,7 @@ class Inputs {
   void bound_losses(const std::vector<double>& train_force);
   void bound_losses(std::size_t train);
   void mark(double t, bool fresh);
+  std::vector<double> find_hidden_times(double a, double b, double spacing) const;
   void look_ahead(double t);
   void sense_network(const State& state);
   const Network* network_;
@@ -173,7 +176,7 @@ class Inputs {
   TimePoint exact_;       ///< See refine.
   TimePoint since_;       ///< The last `enter` or `mark`.
   double stop_;            ///< End of the run [s].
-  bool moves_by_blocks_, functions_of_time_;
+  bool moves_by_blocks_, functions_of_time_, smooth_tables_ = false;
   BlockSignals blocks_;
   DelayHistory history_;  ///< After blocks_, which gives its channels.
   double time_;
