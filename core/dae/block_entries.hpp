@@ -17,7 +17,8 @@ class BlockEntries {
   BlockEntries(const Network& network, const Structure& structure, Inputs& inputs, const UnknownIndices& index, const SlipForces& slip)
       : network_(network), structure_(structure), inputs_(inputs), index_(index), slip_(slip) {}
 
-  /// Reserves the entries. Those of the shares of the balances of pivots come after PivotRows::reserve. Then takes their places in the pattern.
+  /// Reserves the entries, then takes their places in the pattern. `reserve_shares`, after PivotRows::reserve, is for entries in the balances of pivots
+  /// that other rows share.
   void reserve(PatternBuilder& builder, const LoopEquations& loops);
   void reserve_shares(PatternBuilder& builder);
   void take(const std::vector<int>& entry_of_ticket);

@@ -117,8 +117,8 @@ class Inputs {
   /// Derivative of Loss::line by this parameter of the slider that stands for the losses of a train.
   Loss::Line loss_slope(std::size_t slider, int side, bool b_drives, std::size_t which) const;
 
-  /// Times after a and before b at which functions of time may be what they do not show at a and b. Of a smooth table it is the point that is
-  /// farthest from the cubic through the ends; of a function block over the time they are `spacing` apart.
+  /// Times after a and before b at which functions of time may be what they do not show at a and b. A smooth table gives the point that is
+  /// farthest from the cubic through its ends; function blocks over the time give times that are `spacing` apart.
   std::vector<double> hidden_times(double a, double b, double spacing) const {
     return functions_of_time_ || smooth_tables_ ? find_hidden_times(a, b, spacing) : std::vector<double>();
   }

@@ -14,7 +14,7 @@ class PositionSteps {
   explicit PositionSteps(const EventNetwork& net) : net_(net), told_(net.network.scene->elements.size(), 0) {}
 
   struct Steps {
-    std::vector<double> dx;        ///< Of known and viscous nodes, and of nodes that rigid links join to known ones [m].
+    std::vector<double> dx;        ///< Steps of known and viscous nodes, and of nodes that rigid links join to known ones [m].
     std::vector<double> momentum;  ///< That dashpots give to masses [N s].
   };
   /// The steps at t, none unless the inputs have `stepped`. Adds messages on impulses to `notes`. Throws SimulationError if a step takes a

@@ -10,9 +10,9 @@
 
 namespace rheonet {
 
-/// Deflection branches that are held at rest in a Filippov sliding mode. Those in parallel have one velocity, 0, and one value of their
-/// set-valued sign in [-1, 1] (Filippov: the same mixture of both directions for all of them). The first branch carries the equation w = 0.
-/// The others share its mixture: with the rates of hold_rates
+/// Deflection branches that are held at rest in a Filippov sliding mode. Branches in parallel have one velocity, 0, and one
+/// mixture of both directions, as Filippov's solutions do. The first branch carries the equation w = 0. The others share its mixture: with the rates
+/// of hold_rates
 ///     (p' - backward)/(forward - backward) = (the same of the first).
 class SlidingModes {
  public:

@@ -13,9 +13,9 @@ struct UnknownIndices {
   std::vector<int> force;       ///< of each rate branch
   std::vector<int> position;    ///< of each node: of its distance from its parent (see Positions)
   std::vector<int> block;       ///< of each state of a block
-  int deflections_begin = 0, deflections_end = 0;  ///< Those of deflections are one after the other.
+  int deflections_begin = 0, deflections_end = 0;  ///< Deflections are numbered one after the other.
   int count = 0;                ///< Number of unknowns.
-  /// Of each node: the row in which the forces on its whole group balance. It is that of the branch that leads to the node.
+  /// For each node, the row in which the forces on its whole group balance: the row of the branch that leads to the node.
   std::vector<int> group_balance;
 };
 

@@ -43,10 +43,6 @@ bool LeapsOverChanges::repeat(System& system, const Tolerances& tolerances, cons
   return true;
 }
 
-bool LeapsOverChanges::repeat_for_inputs(System& system, const Tolerances& tolerances, const std::vector<double>& times) {
-  return repeat(system, tolerances, times);
-}
-
 bool LeapsOverChanges::repeat_to_event(System& system, const Tolerances& tolerances) {
   const double end = system.integrator.time(), length = end - system.integrator.previous_time();
   if (!system.dae.inputs().blocks().has_functions() || system.integrator.exact() || !(length > time_roundoff(end))) return false;

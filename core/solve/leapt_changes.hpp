@@ -15,14 +15,12 @@ class LeapsOverChanges {
  public:
   /// Whether the last step, which ends in an event, is to be repeated. Not more than `numerics::leapt_repeats` times for one event.
   bool repeat_to_event(System& system, const Tolerances& tolerances);
-  /// Whether the last step is to be repeated for what inputs do at these times within it; as often at most.
-  bool repeat_for_inputs(System& system, const Tolerances& tolerances, const std::vector<double>& times);
+  /// The same for any step, if the equations have other rates at one of these times within it.
+  bool repeat(System& system, const Tolerances& tolerances, const std::vector<double>& times);
   /// Whether steps at t [s], at an event or not, are past those that were repeated, and may be long again.
   bool passed(double t, bool event);
 
  private:
-  bool repeat(System& system, const Tolerances& tolerances, const std::vector<double>& times);
-
   int repeats_ = 0;   ///< on the way to one event, or over one step
   double until_ = 0;  ///< end of the step that was repeated [s]
 };

@@ -294,7 +294,7 @@ class Run {
       }
       const Dae::View& view = view_of_step();
       const std::vector<double> hidden = on_arc_ ? std::vector<double>{} : hidden_times();
-      if (leaps_.repeat_for_inputs(*system_, tolerances_, hidden)) {
+      if (leaps_.repeat(*system_, tolerances_, hidden)) {
         repeat_step(until, shrink);
         continue;
       }

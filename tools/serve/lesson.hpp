@@ -20,7 +20,7 @@ std::string lesson_file_of(const std::string& netlist);
 struct LessonGlance {
   std::string level;  ///< "beginner", "intermediate", "advanced"; "": unspecified.
   double minutes = 0;
-  std::map<std::string, std::string> titles;  ///< Of the netlist, in other languages: "de".
+  std::map<std::string, std::string> titles;  ///< The title of the netlist by language: "de".
 };
 LessonGlance glance_at_lesson(const std::string& text);
 
