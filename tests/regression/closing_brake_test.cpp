@@ -1,5 +1,5 @@
-// A brake closes on a mass that has come to rest. What is left of its velocity is an error of the steps, so the brake sticks. It slipped for some
-// nanoseconds once, and the row at that time held its sliding force.
+// A brake closes on a mass that has come to rest, but for the errors of steps: it sticks. It slipped for some nanoseconds once, and the row at that
+// time held its sliding force.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
