@@ -263,9 +263,10 @@ bool LookAhead::stops_within() const {
   const EventNetwork& net = event_->net;
   for (std::size_t k = 0; k < slider_.size(); ++k) {
     const Branch& b = net.network.sliders[k].branch;
-    if (event_->modes.slider[k] == Modes::stuck || event_->bounds.came_to_rest(k) != 0 || net.massless(b.a) || net.massless(b.b) || !holds(k)) continue;
+    if (event_->bounds.came_to_rest(k) != 0 || net.massless(b.a) || net.massless(b.b)) continue;
     const double va = event_->state.velocity[at(b.a)], vb = event_->state.velocity[at(b.b)];
-    if (std::abs(va - vb) > numerics::equal_velocities * (std::abs(va) + std::abs(vb))) return true;
+    const bool goes_on = apart(net.network, net.network.sliders[k]) || problem_.direction(slider_[k]) == (va > vb ? 1 : -1);
+    if (!goes_on && std::abs(va - vb) > numerics::equal_velocities * (std::abs(va) + std::abs(vb))) return true;
   }
   return false;
 }

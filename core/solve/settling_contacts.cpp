@@ -1,7 +1,7 @@
 #include "core/solve/settling_contacts.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <limits>
 #include <utility>
 
 #include "core/base/index.hpp"
@@ -9,51 +9,27 @@
 
 namespace rheonet {
 
-namespace {
-
-/// Accelerations of contacts towards the side that they meet [m/s^2].
-std::vector<double> pressing(const Network& network, const std::vector<int>& contacts, const Dae::View& view) {
-  std::vector<double> result;
-  for (const int k : contacts) {
-    const Network::Slider& slider = network.sliders[at(k)];
-    result.push_back(network.contact_of(slider) * (view.acceleration[at(slider.branch.a)] - view.acceleration[at(slider.branch.b)]));
-  }
-  return result;
-}
-
-}  // namespace
-
-std::vector<int> settling_contacts(System& system, const Tolerances& tolerances, const Settling& settling, const std::vector<double>& y,
-                                   const std::vector<double>& yp, std::vector<double>& closing) {
-  Dae& dae = system.dae;
-  const Network& network = dae.network();
-  std::vector<int> slow;
-  std::vector<double> speed, kept;  // after the impact; share that each hop keeps
+std::vector<int> SettlingContacts::find(System& system, const Tolerances& tolerances, double t, const std::vector<double>& y,
+                                        const std::vector<double>& yp) {
+  const Network& network = system.dae.network();
+  std::vector<int> result;
   for (std::size_t k = 0; k < network.sliders.size(); ++k) {
     const Network::Slider& slider = network.sliders[k];
     const int side = slider.contact && !system.structure.stuck[k] ? network.contact_of(slider) : 0;
     if (side == 0) continue;
-    const Dae::View& view = dae.view_again(settling.t, y.data(), yp.data());
-    const double e = slider.contact->restitution, closes = side * (view.velocity[at(slider.branch.a)] - view.velocity[at(slider.branch.b)]), w = closes * e;
-    const double before = std::exchange(closing[k], closes), keeps = e < 1 ? e : before > 0 ? closes / before : 1;
-    if (!(keeps < 1) || w > numerics::settled_hops * settling.accuracy * tolerances.seen().flow[at(slider.gauge)]) continue;
-    slow.push_back(static_cast<int>(k));
-    speed.push_back(w);
-    kept.push_back(keeps);
-  }
-  if (slow.empty()) return {};
-  const double before = system.integrator.previous_time();
-  std::vector<double> y_before, yp_before;
-  system.integrator.interpolate(before, 0, y_before);
-  system.integrator.interpolate(before, 1, yp_before);
-  const std::vector<double> then = pressing(network, slow, dae.view(before, y_before.data(), yp_before.data()));
-  const std::vector<double> now = pressing(network, slow, dae.view(settling.t, y.data(), yp.data()));
-  std::vector<int> result;
-  for (std::size_t i = 0; i < slow.size(); ++i) {
-    if (!(now[i] > 0)) continue;
-    const double hops = 2 * speed[i] / (now[i] * (1 - kept[i]));
-    const double falls = settling.t > before ? std::max(0.0, then[i] - now[i]) / (settling.t - before) : 0;
-    if (hops <= numerics::settled_hops * settling.accuracy * settling.length && falls * hops <= now[i] / 2) result.push_back(slow[i]);
+    const Dae::View& view = system.dae.view_again(t, y.data(), yp.data());
+    const auto closing = [&](const std::vector<double>& of_nodes) { return side * (of_nodes[at(slider.branch.a)] - of_nodes[at(slider.branch.b)]); };
+    const double speed = closing(view.velocity), pressing = closing(view.acceleration), e = slider.contact->restitution;
+    if (!(speed > 0)) continue;
+    const double hop = last_[k].speed > 0 ? t - last_[k].t : 0;
+    const Impact before = std::exchange(last_[k], {t, speed, hop});
+    const bool measured = before.hop > 0;
+    const double kept = measured ? std::max(speed / before.speed, hop / before.hop) : e;
+    const double next = measured ? kept * hop : pressing > 0 ? 2 * e * speed / pressing : std::numeric_limits<double>::infinity();
+    const double allowed = numerics::settled_hops * accuracy_;
+    if (kept < 1 && e * speed <= allowed * tolerances.seen().flow[at(slider.gauge)] && next / (1 - kept) <= allowed * length_) {
+      result.push_back(static_cast<int>(k));
+    }
   }
   return result;
 }

@@ -6,17 +6,29 @@
 
 namespace rheonet {
 
-/// Contacts that the last step has closed, and that end here although they would be thrown back: sliders with a gauge.
+/// Finds the hops that accumulate: infinitely many in a finite time, after which the contact rests.
 ///
-/// Thrown back with velocity w and pressed with the acceleration a, a contact hops for 2 w/a, and after infinitely many hops, each
-/// shorter by the coefficient of restitution e, it rests: 2 w/(a (1 - e)) later. It rests now if the error stays below a share
-/// of `accuracy`: w relative to the largest velocity of the contact, and that time relative to the length of the run. The
-/// acceleration must go on for that time. An elastic contact (e = 1) hops on for ever, unless something else takes energy: then e is
-/// what the last hop has kept of its velocity.
-///
-/// `closing`: of each slider, the velocity with which its contact has closed before [m/s]; 0 if it has not.
-struct Settling { double t, accuracy, length; };
-std::vector<int> settling_contacts(System& system, const Tolerances& tolerances, const Settling& at, const std::vector<double>& y,
-                                   const std::vector<double>& yp, std::vector<double>& closing);
+/// If each hop keeps a share r of the speed and of the length T of the one before, those that remain take T r/(1 - r). The contact
+/// rests now if the error of that stays below a share of `accuracy`: the speed w after this impact relative to the largest velocity of
+/// the contact, and the remaining time relative to the length of the run. The share r is measured over the last two hops, whatever
+/// takes the energy: the restitution, friction beside the stop, or a second mass that is dragged along. Before there are two, it is the
+/// restitution e, and the next hop takes 2 w/a, where a is the acceleration that presses on the contact.
+class SettlingContacts {
+ public:
+  SettlingContacts(const Network& network, double accuracy, double length) : accuracy_(accuracy), length_(length), last_(network.sliders.size()) {}
+
+  /// Contacts that the last step has closed, and that rest from now on: sliders with a gauge.
+  std::vector<int> find(System& system, const Tolerances& tolerances, double t, const std::vector<double>& y, const std::vector<double>& yp);
+
+ private:
+  struct Impact {
+    double t = 0;      ///< [s]
+    double speed = 0;  ///< of closing [m/s]; 0: none yet
+    double hop = 0;    ///< time since the impact before [s]; 0: none yet
+  };
+
+  double accuracy_, length_;  ///< [1], [s]
+  std::vector<Impact> last_;  ///< of each slider
+};
 
 }  // namespace rheonet

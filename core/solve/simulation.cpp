@@ -46,12 +46,12 @@ class Run {
         tolerances_(network, tolerance(error_model_.local_share())),
         mode_cache_(network, classified_, inputs_, needed, modes_, tolerances_, {.order = settings.order, .locate_events = settings.locate_events, .arc_unknowns = settings.arc_unknowns}),
         mode_changes_(network, inputs_),
+        settling_(network, settings.accuracy, settings.stop),
         chatter_(network.scene->elements.size() + 1, settings.accuracy),
         regularisation_(network) {
     modes_.slider.assign(network.sliders.size(), Modes::stuck);
     modes_.b_drives.assign(network.trains.size(), 0);
     slider_force_.assign(network.sliders.size(), 0);
-    closing_.assign(network.sliders.size(), 0);
     inputs_.history().disregard(numerics::continuous_jump * settings.accuracy);
   }
 
@@ -346,7 +346,8 @@ class Run {
         if (may_jam(network_, fired_)) report_losses(network_, at_time(*network_.scene, t));
         throw SimulationError(network_.spot_of(fired_.front()), at_time(*network_.scene, t) + " " + chatter_.describe_endless(network_, impact_ == t));
       }
-      if (!hops && gets_nowhere(t, fired_)) report_chatter(t);
+      if (hops) chatter_.reset();
+      if (gets_nowhere(t, fired_)) report_chatter(t);
       until = std::min(until, inputs_.next_break());  // the event may be a discontinuity of a delayed signal
       if (t >= until) return until;
       begin_steps(t, until, shrink);
@@ -409,7 +410,7 @@ class Run {
     leave(t);
     Fired fired = take_events(*system_, t, y_, yp_);
     fired_ = std::move(fired.elements);
-    fired.sudden.settles = settling_contacts(*system_, tolerances_, {t, settings_.accuracy, settings_.stop}, y_, yp_, closing_);
+    fired.sudden.settles = settling_.find(*system_, tolerances_, t, y_, yp_);
     const bool jumps = inputs_.blocks().fire(fired.limits);
     cross(t, jumps, fired.sudden);
   }
@@ -522,7 +523,6 @@ class Run {
   double left_ = 0;  ///< Time of `state_` [s].
   bool driven_ = false;  ///< An input oscillates, or jumps later.
   bool ended_ = false;   ///< By `simulate.stop_when`, at the last event.
-  std::vector<double> closing_;      ///< Velocity with which the contact of each slider has closed last [m/s].
   double impact_ = -1, hopped_ = 0;  ///< Time of the last impact after which a contact was thrown back, and of the one before [s].
   bool stopped_ = false; ///< The last interval ended with a step that the integrator can continue from.
   long steps_ = 0;       ///< In the last interval.
@@ -532,6 +532,7 @@ class Run {
   std::vector<double> y_, yp_;
   std::vector<double> deflections_;  ///< at the end of the last step [m]
   SimulationStatistics statistics_;
+  SettlingContacts settling_;
   ChatterDetection chatter_;
   Regularisation regularisation_;
   std::vector<int> fired_;  ///< elements at the last event
