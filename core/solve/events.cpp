@@ -233,6 +233,16 @@ bool NetworkEvents::sticks() const {
   return !limit_margin_.empty() || !losses_.empty() || !returning_.empty() || std::any_of(sliders_.begin(), sliders_.end(), [&](int k) { return dae_.structure().stuck[at(k)] != 0; });
 }
 
+bool NetworkEvents::locked_beside_friction() const {
+  const auto& trains = dae_.network().trains;
+  if (trains.empty()) return false;
+  const auto stuck = std::count_if(sliders_.begin(), sliders_.end(), [&](int k) { return dae_.structure().stuck[at(k)] != 0; });
+  for (std::size_t k = 0; k < trains.size() && stuck > 1; ++k) {
+    if (trains[k].friction >= 0 && dae_.structure().stuck[at(trains[k].friction)] && dae_.inputs().loss(k).efficiency_b <= 0) return true;
+  }
+  return false;
+}
+
 std::vector<std::size_t> NetworkEvents::may_return() const {
   std::vector<std::size_t> result;
   for (std::size_t k = first_sudden(); k < events_.size(); ++k) result.push_back(k);

@@ -42,6 +42,9 @@ class NetworkEvents final : public EventFunctions {
   /// True if a slider slips at a floating node. Its velocity may follow the inputs directly, without an unknown whose error
   /// test would keep steps short.
   bool slips_along() const { return slips_along_; }
+  /// True if a self-locking gear stands beside other friction that sticks. The loads under which it can stand are then those of two separate
+  /// ranges: on its way from one to the other a load that changes evenly may pass times at which something must slip.
+  bool locked_beside_friction() const;
   /// Guards that may cross 0 and return within one step: all but those of laws, and then those of the laws that are held at rest or not in
   /// contact (DeflectionBatch::contact).
   std::vector<std::size_t> may_return() const;

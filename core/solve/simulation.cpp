@@ -356,8 +356,11 @@ class Run {
 
   std::vector<double> hidden_times() const {
     const Integrator& integrator = system_->integrator;
-    return inputs_.hidden_times(integrator.previous_time(), integrator.time(), settings_.stop / numerics::looks_at_functions);
+    return inputs_.hidden_times(integrator.previous_time(), integrator.time(), spacing_of_looks());
   }
+
+  /// Between looks at what the ends of steps may not show [s].
+  double spacing_of_looks() const { return settings_.stop / numerics::looks_within_run; }
 
   /// Goes back to the beginning of the last step, and on in parts of it.
   void repeat_step(double until, double shrink) {
@@ -477,7 +480,8 @@ class Run {
 
   void limit_step() {
     const NetworkEvents& events = system_->events;
-    system_->integrator.limit_step(longest_step(inputs_, events.sticks(), events.slips_along(), settings_.accuracy));
+    const double longest = longest_step(inputs_, events.sticks(), events.slips_along(), settings_.accuracy);
+    system_->integrator.limit_step(events.locked_beside_friction() ? std::min(longest, spacing_of_looks()) : longest);
   }
 
   double accuracy() const { return on_arc_ ? numerics::arc_accuracy : settings_.accuracy; }

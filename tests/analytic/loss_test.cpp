@@ -307,4 +307,40 @@ record = ["a.velocity", "a.acceleration", "g.force"]
   for (const int count : seen) CHECK(count > 20);
 }
 
+// The lever may stand while its second node is pushed with at least eta_a T (a drives) or at most T/eta_b. The friction there takes a rising
+// load from the one range to the other, but for some milliseconds, in which the lever goes off.
+TEST_CASE("losses: a self-locking lever breaks away in the short time in which friction beside it cannot make it stand") {
+  const double m = 0.02, M = 2, eta = 0.7, T = 0.098, from = -0.5, rate = 5, stop = 1;
+  for (const double coulomb : {0.09, 0.1, 0.125}) {
+    for (const char* method : {"auto", "ida"}) {
+      for (const double accuracy : {1e-3, 1e-6, 1e-9}) {
+        CAPTURE(coulomb);
+        CAPTURE(method);
+        CAPTURE(accuracy);
+        const RunTable rows = simulate(fmt::format(R"(
+[elements]
+ma = {{ type = "mass", at = "a", mass = {} }}
+mb = {{ type = "mass", at = "b", mass = {} }}
+g  = {{ type = "lever", between = ["a", "b"], ratio = 1, efficiency = [{}, -0.5] }}
+fa = {{ type = "force", at = "a", force = {} }}
+fb = {{ type = "force", at = "b", force = {{ ramp = {}, offset = {} }} }}
+s  = {{ type = "slider", between = ["b", "ground"], coulomb = {} }}
+[simulate]
+stop = {}
+method = "{}"
+output = {{ points = 51 }}
+record = ["a.velocity", "a.position", "s.force"]
+)", m, M, eta, T, rate, from, coulomb, stop, method), accuracy);
+        const double breaks = (coulomb - eta * T - from) / rate, mass = M + eta * m;
+        for (std::size_t row = 0; row < rows.time().size(); ++row) {
+          const double u = std::max(0.0, rows.time()[row] - breaks);
+          CHECK_LE(std::abs(rows["a.velocity"][row] - rate * u * u / (2 * mass)), accuracy);
+          CHECK_LE(std::abs(rows["a.position"][row] - rate * u * u * u / (6 * mass)), accuracy / 3);
+          CHECK_LE(std::abs(rows["s.force"][row]), coulomb * (1 + 1e-12));
+        }
+      }
+    }
+  }
+}
+
 }  // namespace rheonet::test::loss_test
