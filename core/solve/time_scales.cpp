@@ -103,13 +103,17 @@ class Separation {
   /// Takes from the slow states Q f, their part of the fast motions. Rows of [R E] are subtracted, where a force or velocity that acts on several states
   /// cancels exactly; in A its round-off would be left. Each round takes the rest of the previous one.
   bool leave_fast_parts(const StateGroup& slow, const StateGroup& fast) {
+    constexpr double round_off = numerics::arc_ulps * std::numeric_limits<double>::epsilon();
+    MatrixXd taken = MatrixXd::Zero(static_cast<Index>(slow.size()), static_cast<Index>(fast.size()));
     for (int round = 0; round < numerics::arc_gap_rounds; ++round) {
       const MatrixXd Q = block(slow, fast) * inverse_of(block(fast, fast));
       if (!Q.allFinite()) return false;
       rows_(slow, Eigen::all) -= Q * rows_(fast, Eigen::all);
       S_(Eigen::all, fast) += S_(Eigen::all, slow) * Q;
+      taken += Q;
+      const VectorXd rest = Q.cwiseAbs().rowwise().maxCoeff(), all = taken.cwiseAbs().rowwise().maxCoeff();
       const double changed = (Q * block(fast, slow)).cwiseAbs().maxCoeff();
-      if (changed <= numerics::arc_ulps * std::numeric_limits<double>::epsilon() * block(slow, slow).cwiseAbs().maxCoeff()) return true;
+      if (changed <= round_off * block(slow, slow).cwiseAbs().maxCoeff() && (rest.array() <= round_off * all.array()).all()) return true;
     }
     return false;
   }
