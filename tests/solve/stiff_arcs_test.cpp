@@ -38,6 +38,27 @@ TEST_CASE("stiff arcs: a force on a light mass in a thick liquid, a decay within
   }
 }
 
+// The fast part of the force moves the velocity, and this the position, which acts on nothing.
+TEST_CASE("stiff arcs: a free mass, pushed through one lag or two") {
+  constexpr double m = 2.3, F = 0.7, stop = 2;
+  for (const double T : {1e-9, 1e-6, 1e-3, 0.011, 0.02, 0.05, 0.3}) {
+    for (const int lags : {1, 2}) {
+      CAPTURE(T);
+      CAPTURE(lags);
+      Summary summary;
+      const RunTable rows = on_arcs(fmt::format("m = {{ type = \"mass\", at = \"a\", mass = {} }}\npush = {{ type = \"force\", at = \"a\", force = {{ block = \"l{}\" }} }}\n"
+                                                "g = {{ type = \"generator\", signal = {} }}\nl1 = {{ type = \"lag\", in = \"g\", time_constant = {} }}\n"
+                                                "l2 = {{ type = \"lag\", in = \"l1\", time_constant = {} }}", m, lags, F, T, 1.7 * T), stop, summary);
+      // The force is F less a e^(-t/T) for each lag, with a = F T/(T - the other time constant).
+      const auto sum = [&](auto term) { return lags == 1 ? term(T, 1.0) : term(T, T / (T - 1.7 * T)) + term(1.7 * T, 1.7 * T / (1.7 * T - T)); };
+      const auto v = [&](double t) { return F / m * (t + sum([&](double of, double a) { return a * of * std::expm1(-t / of); })); };
+      const auto x = [&](double t) { return F / m * (t * t / 2 - sum([&](double of, double a) { return a * of * (t + of * std::expm1(-t / of)); })); };
+      CHECK_LE(error_of(rows, "a.velocity", v), 1e-13);
+      CHECK_LE(error_of(rows, "a.position", x), 1e-13);
+    }
+  }
+}
+
 TEST_CASE("stiff arcs: an oscillator with a little damping behind a decay a hundred thousand times as fast, over thousands of cycles") {
   for (const double c : {1e-4, 1e-2, 0.3}) {
     CAPTURE(c);
