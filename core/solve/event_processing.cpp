@@ -26,12 +26,25 @@ std::vector<NetworkEvents::Turned> turning_along(const std::vector<NetworkEvents
   return along;
 }
 
-/// Flags the events at t: those that the integrator has located, and those of laws that follow within the round-off of time.
+/// Flags sliders that stop at t, to the resolution of events. Where something else has its event there, as an expression that switches at
+/// rest, they would pass through rest.
+void add_stopped(System& system, double t, const std::vector<double>& y, const std::vector<double>& yp, std::vector<char>& flags) {
+  const NetworkEvents& events = system.events;
+  const double resolution = numerics::event_time_ulps * std::numeric_limits<double>::epsilon() * (2 * t - system.integrator.previous_time());
+  for (std::size_t k = events.first_sudden(); k < flags.size(); ++k) {
+    const int slider = events[k].branch;
+    if (flags[k] || !events.slips(k) || !events.slips_between_firm(slider)) continue;
+    flags[k] = events.stops_within(slider, resolution, system.dae.view_again(t, y.data(), yp.data()));
+  }
+}
+
+/// Flags the events at t: those that the integrator has located, and those of laws and sliders that follow within the round-off of time.
 /// Without the latter, if two laws in series reach equal bounds at once, the second would never reach its event.
 std::vector<char> at_once(System& system, double t, const std::vector<double>& y, const std::vector<double>& yp) {
   const std::vector<int>& found = system.integrator.events();
   std::vector<char> result(found.size(), 0);
   for (std::size_t k = 0; k < found.size(); ++k) result[k] = found[k] != 0;
+  add_stopped(system, t, y, yp, result);
   if (found.empty() || system.events[0].which < 0) return result;  // the events of laws come first
   const double begin = t - numerics::guard_slope_span * (t - system.integrator.previous_time());
   if (!(begin < t)) return result;

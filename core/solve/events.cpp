@@ -293,6 +293,11 @@ double NetworkEvents::slip_acceleration(int slider, const Dae::View& view) const
   return modes_.slider[at(slider)] * (view.acceleration[at(b.a)] - view.acceleration[at(b.b)]);
 }
 
+bool NetworkEvents::stops_within(int slider, double time, const Dae::View& view) const {
+  const double slows = -slip_acceleration(slider, view);
+  return slows > 0 && modes_.slider[at(slider)] * view.slider_velocity[at(slider)] <= slows * time;
+}
+
 /// The view in which guards are evaluated.
 const Dae::View& NetworkEvents::resolved(double t, const double* y, const double* yp) {
   // A velocity between floating nodes is a derivative of deflections. The integrator's polynomial gives it to the accuracy of

@@ -61,6 +61,8 @@ class NetworkEvents final : public EventFunctions {
   /// A slider that slips between known or massive nodes, and rate of its slip speed [m/s^2].
   bool slips_between_firm(int slider) const;
   double slip_acceleration(int slider, const Dae::View& view) const;
+  /// Whether such a slider stops within this time [s].
+  bool stops_within(int slider, double time, const Dae::View& view) const;
 
   int count() const override { return static_cast<int>(events_.size()); }
   void evaluate(double t, const double* y, const double* yp, double* g) override;
