@@ -226,8 +226,22 @@ void UnknownRoundoff::find_unknowns(const Loads& loads, const Dae::View& view) {
       drift_[i] = {eps * (alone ? speed_at(view, b) : loads.speed[part]), dc != 0 ? 1 / dc : std::numeric_limits<double>::infinity()};
     } else if (sort == Sort::force) {
       near_0_[i] = eps * loads.force[at(parts_.of(structure.rates[k]))];
+    } else if (sort == Sort::block) {
+      drift_[i] = drift_of_state(k);
     }
   }
+}
+
+/// The rate of a block's state has the round-off of what it senses, which adds up until the state has forgotten it. In a law of the netlist
+/// the velocity is the small difference of two velocities where both ends move along.
+UnknownRoundoff::Drift UnknownRoundoff::drift_of_state(std::size_t state) const {
+  constexpr double eps = numerics::balanced_force_ulps * std::numeric_limits<double>::epsilon();
+  const BlockSignals& blocks = dae_->inputs().blocks();
+  double sum = 0;
+  for (std::size_t sensor = 0; sensor < blocks.sensed.size(); ++sensor) {
+    sum += std::abs(blocks.slopes().of_rate(state, blocks.states() + sensor) * blocks.sensed[sensor].value);
+  }
+  return {eps * sum, 1 / std::abs(blocks.slopes().of_rate(state, state))};
 }
 
 /// Each node of a train has the round-off of the others.

@@ -54,6 +54,8 @@ class UnknownRoundoff {
   Loads find_loads(const Dae::View& view) const;
   void find_jitter();
   void find_unknowns(const Loads& loads, const Dae::View& view);
+  struct Drift;
+  Drift drift_of_state(std::size_t state) const;
   void spread_over_trains();
   void find_blocks();
   void find_drift_again(double t, const Dae::View& view);
@@ -83,7 +85,7 @@ class UnknownRoundoff {
   double restarted_ = 0;               ///< Time of the last restart [s].
   std::vector<char> jitters_;          ///< For each unknown: it jitters with the round-off of time.
   std::vector<double> near_0_, grain_; ///< For each unknown: its round-off near 0; see `grains`.
-  /// Round-off of a velocity [m/s], and how long it accumulates in the quantity that integrates it [s].
+  /// Round-off of a velocity [m/s], or of the rate of a block's state, and how long it accumulates in the quantity that integrates it [s].
   struct Drift { double velocity = 0, lasting = std::numeric_limits<double>::infinity(); };
   std::vector<Drift> drift_;           ///< For each unknown that integrates a velocity.
   bool drift_dominates_ = false;       ///< It decides the tolerance of some deflection.
