@@ -337,8 +337,13 @@ ConvexNetwork::Outcome ConvexNetwork::solve() {
   for (rounds_ = 0; rounds_ < rounds; ++rounds_) {
     merge();
     while (stick_where_met()) merge();  // several may come together in one step
-    if (rounds_ == 0) let_prescribed_part();
     if (rounds_ == 0) {
+      let_prescribed_part();
+      // Nodes that equations join need not have started together, but to round-off.
+      for (Branch& b : branches_) {
+        const double w = nodal_difference(b);
+        if (std::abs(w - b.w) > difference_rounding * (std::abs(base_[at(b.a)]) + std::abs(base_[at(b.b)]))) b.w = w;
+      }
       part_torn_equations();
       meet_equations();
     }

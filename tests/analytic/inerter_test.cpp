@@ -180,4 +180,41 @@ m1    = {{ type = "mass", at = "one", mass = "m" }}
 )", f), 3.1) + record(expected), expected);
 }
 
+// An inerter to ground is a mass, also where a rigid stop joins two nodes of a planetary gear, and with them the third. Forces between the
+// nodes keep M1 a + M2 b + M3 c; a plastic impact joins all, another one parts the two with e times their speed.
+TEST_CASE("an inerter to ground at a planetary gear takes impulses as a mass does") {
+  const double M1 = 2.1, M2 = 1.3, M3 = 2.9, i = 2, va = -0.5, vc = 0.85, vb = (va + i * vc) / (1 + i);
+  for (const double e : {0.0, 0.5, 1.0}) {
+    for (const int inerter : {0, 1, 2}) {
+      for (const bool forwards : {true, false}) {
+        CAPTURE(e);
+        CAPTURE(inerter);
+        CAPTURE(forwards);
+        const auto inertia = [&](int place, const char* node, double size) {
+          return place == inerter ? fmt::format("m{0} = {{ type = \"inerter\", between = [\"{0}\", \"ground\"], inertance = {1} }}\n", node, size)
+                                  : fmt::format("m{0} = {{ type = \"mass\", at = \"{0}\", mass = {1} }}\n", node, size);
+        };
+        const RunTable rows = simulate(fmt::format(R"(
+[nodes]
+a = {{ velocity = {:.17g} }}
+b = {{ velocity = {:.17g} }}
+c = {{ velocity = {:.17g} }}
+[elements]
+pl = {{ type = "planetary", between = ["a", "b", "c"], ratio = {} }}
+st = {{ type = "stop", between = {}, stiffness = "inf", restitution = {} }}
+{}{}{}
+[simulate]
+stop = 2
+output = {{ points = 5 }}
+record = ["a.velocity", "b.velocity", "c.velocity"]
+)", va, vb, vc, i, forwards ? "[\"a\", \"b\"], lower = -0.2" : "[\"b\", \"a\"], upper = 0.2", e, inertia(0, "a", M1), inertia(1, "b", M2), inertia(2, "c", M3)));
+        const double a = rows["a.velocity"].back(), v = rows["b.velocity"].back(), c = rows["c.velocity"].back();
+        CHECK_LE(std::abs(M1 * (a - va) + M2 * (v - vb) + M3 * (c - vc)), 1e-14);
+        CHECK_LE(std::abs(a - v + e * (va - vb)), 1e-14);
+        CHECK_LE(std::abs(a + i * c - (1 + i) * v), 1e-14);
+      }
+    }
+  }
+}
+
 }  // namespace rheonet::test::inerter_test
