@@ -4,9 +4,11 @@
 #include <cmath>
 #include <limits>
 
+#include "core/base/index.hpp"
 #include "core/base/numerics.hpp"
 #include "core/dae/polynomial.hpp"
 #include "core/network/error.hpp"
+#include "core/solve/unknown.hpp"
 
 namespace rheonet {
 
@@ -20,21 +22,26 @@ double remembered_angle(double accuracy) {
 
 }  // namespace
 
-std::vector<double> coming_size(const Dae& dae, Consistency& consistency, double t, const Motion& motion, double ahead) {
+std::vector<double> coming_size(Dae& dae, Consistency& consistency, double t, const Motion& motion, double ahead) {
   const std::size_t n = motion.y.size();
   std::vector<double> size(n);
   for (std::size_t i = 0; i < n; ++i) size[i] = std::abs(motion.y[i]);
-  if (dae.rough()) {
+  const auto guess = [&] {
     std::vector<double> y = motion.y, yp(n, 0);
     try {
-      if (consistency.collocate(t + ahead, 1 / ahead, y, yp) <= numerics::guessed_state_change) {
-        for (std::size_t i = 0; i < n; ++i) size[i] = std::max(size[i], std::abs(y[i]));
-        return size;
-      }
+      if (consistency.collocate(t + ahead, 1 / ahead, y, yp) > numerics::guessed_state_change) return false;
     } catch (const SimulationError&) {  // the guess is no state of the network
+      return false;
     }
-  }
+    for (std::size_t i = 0; i < n; ++i) size[i] = std::max(size[i], std::abs(y[i]));
+    return true;
+  };
+  if (dae.rough() && guess()) return size;
   for (std::size_t i = 0; i < n; ++i) size[i] += ahead * (std::abs(motion.yp[i]) + ahead / 2 * std::abs(motion.ypp[i]));
+  // A state behind several others grows with a higher power of time.
+  const std::vector<Unknown> unknowns = unknowns_of(dae);
+  const auto behind = [&](const Unknown& q) { return q.sort == Unknown::Sort::block && size[at(static_cast<int>(&q - unknowns.data()))] == 0; };
+  if (!dae.rough() && std::any_of(unknowns.begin(), unknowns.end(), behind)) guess();
   return size;
 }
 

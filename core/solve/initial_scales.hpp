@@ -12,7 +12,7 @@ struct Motion { const std::vector<double>&y, &yp, &ypp; };
 
 /// Estimates the largest magnitude of each unknown until t + ahead. The initial slope of a velocity that follows from a
 /// power law at rest may be infinite but for round-off: there the estimate is one step of the implicit Euler method.
-std::vector<double> coming_size(const Dae& dae, Consistency& consistency, double t, const Motion& motion, double ahead);
+std::vector<double> coming_size(Dae& dae, Consistency& consistency, double t, const Motion& motion, double ahead);
 
 /// The fastest rate of change of the network itself at t [1/s]; `horizon` is the time until the next known discontinuity
 /// [s]. A power law at rest has slope 0 or infinity: there the rate is that of the state at t + `ahead` [s].
