@@ -17,14 +17,14 @@ constexpr double difference_rounding = numerics::sum_ulps * std::numeric_limits<
 }  // namespace
 
 ConvexNetwork::ConvexNetwork(int nodes)
-    : origin_(at(nodes), 0), base_(origin_), u_(origin_), inertia_(origin_), applied_(origin_), fixed_(at(nodes), 0), tied_(fixed_), given_(origin_), clusters_(nodes) {}
+    : origin_(at(nodes), 0), base_(origin_), u_(origin_), inertia_(origin_), applied_(origin_), fixed_(at(nodes), 0), tied_(fixed_), given_(origin_), clusters_(nodes), torn_clusters_(0) {}
 
 void ConvexNetwork::fix(int node, double change) {
   fixed_[at(node)] = 1;
   u_[at(node)] = given_[at(node)] = change;
 }
 
-bool ConvexNetwork::torn(int node) const {
+bool ConvexNetwork::is_torn(int node) const {
   const double given = origin_[at(node)] + given_[at(node)], is = value(node);
   const double size = std::abs(origin_[at(node)]) + std::abs(given_[at(node)]) + std::abs(is);
   return fixed_[at(node)] && std::abs(is - given) > numerics::torn_velocities * size;
@@ -212,12 +212,12 @@ bool ConvexNetwork::part_torn() {
     around[at(branches_[k].b)].push_back(k);
   }
   for (std::size_t node = 0; node < n; ++node) {
-    if (!torn(static_cast<int>(node))) continue;
+    if (!is_torn(static_cast<int>(node))) continue;
     constexpr std::size_t none = static_cast<std::size_t>(-1);
     std::vector<std::size_t> by(n, none), reached{node};
     for (std::size_t i = 0; i < reached.size(); ++i) {
       const std::size_t from = reached[i];
-      if (fixed_[from] && !torn(static_cast<int>(from))) {
+      if (fixed_[from] && !is_torn(static_cast<int>(from))) {
         for (std::size_t here = from; here != node;) {
           Branch& b = branches_[by[here]];
           const bool first = at(b.a) == here;
@@ -243,7 +243,7 @@ bool ConvexNetwork::part_torn() {
 }
 
 /// Lets branches open until no prescribed nodes are torn from each other, as far as the laws permit. A branch that would then move
-/// as its law forbids sticks.
+/// as its law forbids sticks. What is torn then stays so.
 void ConvexNetwork::let_prescribed_part() {
   for (std::size_t tries = 0; tries <= 2 * branches_.size() && part_torn(); ++tries) {
     merge();
@@ -253,6 +253,12 @@ void ConvexNetwork::let_prescribed_part() {
       if (b.w != 0 && b.forbids(b.w)) b.stuck = true;
     }
     merge();
+  }
+  for (std::size_t k = 0; k < u_.size(); ++k) {
+    if (!is_torn(static_cast<int>(k))) continue;
+    torn_.resize(u_.size(), 0);
+    torn_[k] = 1;
+    torn_clusters_ = clusters_;
   }
 }
 

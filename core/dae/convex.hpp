@@ -84,8 +84,10 @@ class ConvexNetwork {
   }
   /// Whether sticking branches join these nodes. After `solve`.
   bool joined(int a, int b) const { return clusters_.joined(a, b); }
-  /// Whether a prescribed node cannot move as prescribed, because laws without a bound hold it to another one. After `solve`.
-  bool torn(int node) const;
+  /// Whether a prescribed node cannot move as prescribed, because laws without a bound hold it to another one: then the nodes that they join to it.
+  /// After `solve`.
+  bool torn(int node) const { return !torn_.empty() && torn_[at(node)]; }
+  bool torn_with(int node, int other) const { return torn_clusters_.joined(node, other); }
   /// Iterations of the last `solve`.
   std::size_t rounds() const { return rounds_; }
   /// Nodes that run away, if the outcome is `unbounded`.
@@ -140,6 +142,7 @@ class ConvexNetwork {
   void stick_at_first();
   bool stick_where_met();
   void let_prescribed_part();
+  bool is_torn(int node) const;
   bool part_torn();
   bool stick_where_idle();
   void merge();
@@ -167,6 +170,8 @@ class ConvexNetwork {
   std::vector<double> given_;  ///< Prescribed change of each fixed node.
   std::vector<Branch> branches_;
   NodeClusters clusters_;  ///< Nodes that sticking branches and equations join.
+  std::vector<char> torn_;     ///< For each node, if any is: see torn.
+  NodeClusters torn_clusters_;
   std::vector<int> released_;  ///< Branches of the last release, the worst first.
   int full_steps_ = 0;  ///< Full Newton steps in a row.
   std::size_t rounds_ = 0;

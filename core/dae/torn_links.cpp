@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/base/format_list.hpp"
 #include "core/base/index.hpp"
 #include "core/base/numerics.hpp"
 #include "core/network/rigid_links.hpp"
@@ -36,6 +37,15 @@ std::optional<Parting> parting(const EventNetwork& net, double t, NodeId a, Node
   }
   net.inputs.evaluate(t);
   return found;
+}
+
+/// The motions of the nodes that laws hold to a torn one.
+std::string demanding_motions(const EventNetwork& net, const ConvexNetwork& problem, int torn) {
+  std::vector<std::string> names;
+  for (const Network::Motion& motion : net.network.motions) {
+    if (problem.torn_with(torn, net.slot(motion.node))) names.push_back(net.network.scene->elements[at(motion.element)].name);
+  }
+  return fmt::format("the motion{} {} demand{}", names.size() > 1 ? "s" : "", format_list(names), names.size() > 1 ? "" : "s");
 }
 
 }  // namespace
@@ -78,12 +88,11 @@ void refuse_blocked_motions(const EventNetwork& net, double t, const ConvexNetwo
       const Branch& b = net.network.sliders[k].branch;
       const Box& box = net.inputs.box(k);
       const bool forbids = std::isinf(box.forward.sliding.value) != std::isinf(box.backward.sliding.value);
-      if (!forbids || !problem.joined(node, net.slot(b.a)) || !problem.joined(node, net.slot(b.b))) continue;
+      if (!forbids || !problem.torn_with(node, net.slot(b.a)) || !problem.torn_with(node, net.slot(b.b))) continue;
       if (net.network.sliders[k].contact) {
         throw SimulationError(net.network.spot_of(b.element),
-                              fmt::format("{} `{}` is at its bound, and the prescribed motions of nodes `{}` and `{}` demand that it goes on: put an "
-                                          "element that gives way in series with it",
-                                          at_time(*net.network.scene, t), net.network.name_of(b), net.network.node_name(b.a), net.network.node_name(b.b)));
+                              fmt::format("{} `{}` is at its bound, and {} that it goes on: put an element that gives way in series with it",
+                                          at_time(*net.network.scene, t), net.network.name_of(b), demanding_motions(net, problem, node)));
       }
       throw SimulationError(net.network.spot_of(b.element),
                             fmt::format("{} `{}` forbids the motion of node `{}` against `{}` that the prescribed motions demand; name its nodes the other "

@@ -431,8 +431,8 @@ TEST_CASE("rigid stop: mistakes are refused") {
     return refusal("[elements]\nd = { type = \"motion\", at = \"a\", " + motion + " }\ns = { type = \"stop\", between = [\"a\", \"ground\"], upper = 0.5, "
                    "stiffness = \"inf\" }\n[simulate]\nstop = 1\n");
   };
-  says(driven("velocity = 0.7"), "at t = 0.714285714 s `s` is at its bound, and the prescribed motions of nodes `a` and `ground` demand that it goes on: put "
-                                 "an element that gives way in series with it");
+  says(driven("velocity = 0.7"), "at t = 0.714285714 s `s` is at its bound, and the motion `d` demands that it goes on: put an element that gives way in "
+                                 "series with it");
   CHECK_EQ(driven("velocity = 0.49"), "");
   says(driven("position = { step = 0.7, time = 0.3 }"), "at t = 0.3 s a step in position moves the ends of `s` by 0.2 m beyond its bound in no time, which takes "
                                                         "a force beyond any bound; give the step a time to rise in");
