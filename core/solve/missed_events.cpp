@@ -64,7 +64,8 @@ bool MissedEvents::any_dips(const Dae::View& end) {
 }
 
 double MissedEvents::crossing(const Integrator& integrator, double positive, double negative, std::size_t event) {
-  while (negative - positive > numerics::last_digit_ulps * std::numeric_limits<double>::epsilon() * std::abs(negative)) {
+  const double last_digit = numerics::last_digit_ulps * std::numeric_limits<double>::epsilon() * (std::abs(negative) + (negative - positive));
+  while (negative - positive > last_digit) {
     const double half = (positive + negative) / 2;
     if (half <= positive || half >= negative) break;
     (at_time(integrator, half, event) > 0 ? positive : negative) = half;
