@@ -85,7 +85,7 @@ double ConvexNetwork::Branch::slope(double w) const {
 void ConvexNetwork::find_restrained() {
   DisjointSets rigid(u_.size());
   for (const Branch& b : branches_) {
-    if (std::isinf(b.law.low) && std::isinf(b.law.high)) rigid.join(b.a, b.b);
+    if (b.law.inertial || (std::isinf(b.law.low) && std::isinf(b.law.high))) rigid.join(b.a, b.b);
   }
   std::vector<char> restrained(u_.size(), 0);
   for (std::size_t k = 0; k < u_.size(); ++k) restrained[at(rigid.find(static_cast<int>(k)))] |= fixed_[k] || inertia_[k] > 0 || (tied_[k] && any_inertia_);

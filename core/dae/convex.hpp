@@ -30,6 +30,7 @@ class ConvexNetwork {
     double backward = 0, forward = 0;  ///< Slopes for w < 0 and w > 0.
     double rounding = 0;               ///< A magnitude: the force is known to its round-off.
     bool of_change = false;            ///< w is counted from the start values, not from 0.
+    bool inertial = false;             ///< It holds its ends together as the inertia of a node holds this node.
     /// If set: force and slope for w != 0, in place of low + backward w and high + forward w.
     std::function<double(double w, double& slope)> beyond = {};
   };

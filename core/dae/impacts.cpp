@@ -202,7 +202,7 @@ std::vector<double> Impacts::share_impulses(double t, const std::vector<double>&
     reached[at(b.a)] = reached[at(b.b)] = 1;
     return problem.add(net_.slot(b.a), net_.slot(b.b), law);
   };
-  for (const auto& [branch, inertance] : network_.inerters) add(branch, {.backward = inertance, .forward = inertance, .of_change = true});
+  for (const auto& [branch, inertance] : network_.inerters) add(branch, {.backward = inertance, .forward = inertance, .of_change = true, .inertial = true});
   constexpr double unlimited = std::numeric_limits<double>::infinity();
   const auto impulse = [](const Bounds& bounds) { return std::isinf(bounds.sliding.value) ? bounds.sliding.value : 0; };
   std::vector<int> branch(network_.sliders.size(), -1);

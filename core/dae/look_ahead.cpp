@@ -195,7 +195,7 @@ void LookAhead::add_inerters() {
   const EventNetwork& net = event_->net;
   for (const Network::Inerter& inerter : net.network.inerters) {
     const double slope = inerter.inertance / h_;
-    problem_.add(net.slot(inerter.branch.a), net.slot(inerter.branch.b), {.backward = slope, .forward = slope, .of_change = true});
+    problem_.add(net.slot(inerter.branch.a), net.slot(inerter.branch.b), {.backward = slope, .forward = slope, .of_change = true, .inertial = true});
   }
 }
 
