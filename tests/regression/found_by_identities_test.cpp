@@ -97,8 +97,8 @@ TEST_CASE("a filter and a lag that begin at rest at the corner of a table") {
                                "q = {{ type = \"lag\", in = \"t\", time_constant = 0.05 }}\nf = {{ type = \"force\", at = \"a\", force = {{ block = \"-q\" }} }}\n[nodes]\na = {{ velocity = -0.5 }}\n",
                                3 * slope), fmt::format("stop = {}", stop), {"a.velocity", "q.out"}, accuracy);
   };
-  for (const double accuracy : {1e-4, 1e-6, 1e-8}) {
-    const RunTable corner = with(1, accuracy, 0.15), straight = with(2.0 / 3, 1e-10, 0.15);
+  for (const double accuracy : {1e-4, 1e-6}) {
+    const RunTable corner = with(1, accuracy, 0.15), straight = with(2.0 / 3, accuracy / 10, 0.15);
     CHECK_LE(largest_difference(corner, straight, "a.velocity"), 10 * accuracy * 0.5);
     CHECK_LE(largest_difference(corner, straight, "q.out"), 10 * accuracy * 0.5);
   }
