@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "core/base/numerics.hpp"
@@ -173,12 +172,7 @@ double BlockSignals::event_function(std::size_t limit) {
   const BlockLaw& law = blocks_->blocks[at(index)].law;
   const double v = before_limits_[at(index)].value;
   const double beyond = upper ? v - law.upper : law.lower - v;
-  // Where the input only touches the bound, its round-off is no event.
-  largest_input_.resize(limits_.size(), 0);
-  double& largest = largest_input_[limit];
-  largest = std::max(largest, std::abs(v));
-  const double band = numerics::sum_ulps * std::numeric_limits<double>::epsilon() * largest;
-  return (side_[at(index)] == (upper ? 1 : -1) ? beyond : -beyond) + band;
+  return side_[at(index)] == (upper ? 1 : -1) ? beyond : -beyond;
 }
 
 /// Block by block from the inputs on: an event at one may put the guard of another right that takes it in, as where the output of a

@@ -130,7 +130,6 @@ class BlockSignals {
   std::vector<Dual> out_, before_limits_;
   std::vector<signed char> side_;
   std::vector<Limit> limits_;
-  std::vector<double> largest_input_;  ///< For each limit of a limiter, so far.
   struct Fired { int block; signed char side; };
   std::vector<Fired> fired_;
   bool jumps_ = false;

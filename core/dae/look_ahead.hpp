@@ -53,7 +53,7 @@ class LookAhead {
   /// Whether some slider begins to slip although its force was within its bounds, or one that came to rest slips back. Between prescribed
   /// motions it slips as they do.
   bool breaks_loose() const;
-  /// Whether a slipping slider between nodes with masses stops during the time h, rather than at the event.
+  /// Whether a slider between nodes with masses, whose ends move against each other at the event, stops or turns back during the time h.
   bool stops_within() const;
   /// Whether a deflection branch that cannot be held at rest has reversed.
   bool reversed(int deflection) const;

@@ -232,8 +232,8 @@ void UnknownRoundoff::find_unknowns(const Loads& loads, const Dae::View& view) {
   }
 }
 
-/// The rate of a block's state has the round-off of what it senses, which adds up until the state has forgotten it. In a law of the netlist
-/// the velocity is the small difference of two velocities where both ends move along.
+/// A block's state integrates the round-off of what the block senses. A lag forgets it with its time constant. The velocity in a law of the
+/// netlist is a small difference where both ends move almost alike.
 UnknownRoundoff::Drift UnknownRoundoff::drift_of_state(std::size_t state) const {
   constexpr double eps = numerics::balanced_force_ulps * std::numeric_limits<double>::epsilon();
   const BlockSignals& blocks = dae_->inputs().blocks();
