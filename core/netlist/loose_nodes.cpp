@@ -59,9 +59,10 @@ std::vector<Diagnostic> loose_nodes(const Scene& scene) {
     const SceneElement& only = *meetings[n].only;
     const NodeId other = only.a == static_cast<NodeId>(n) ? only.b : only.a;
     if (other != ground && meetings[static_cast<std::size_t>(other)].count == 1) continue;
+    std::string hint = loose > most_mistyped ? "" : did_you_mean(node.name, ends_but(scene, {static_cast<NodeId>(n), other}));
+    if (hint.empty()) hint = "a node is free until something holds it; the one that never moves is `ground`";
     warnings.push_back({Severity::warning, node.spot,
-                        "nothing but `" + meetings[n].only->name + "` is at node `" + node.name + "`: it carries no force",
-                        loose > most_mistyped ? "" : did_you_mean(node.name, ends_but(scene, {static_cast<NodeId>(n), other}))});
+                        "nothing but `" + meetings[n].only->name + "` is at node `" + node.name + "`: it carries no force", std::move(hint)});
   }
   return warnings;
 }

@@ -123,6 +123,7 @@ TEST_CASE("a node at which a single element ends is told, with the name that may
   CHECK(warnings("seat", "elsewhere") == R"(scene.toml:3:43: warning: nothing but `k` is at node `elsewhere`: it carries no force
     3 | k = { type = "spring", between = ["seat", "elsewhere"], stiffness = 3 }
       |                                           ^
+  a node is free until something holds it; the one that never moves is `ground`
 )");
   CHECK(warnings("seat", "grond") == R"(scene.toml:3:43: warning: nothing but `k` is at node `grond`: it carries no force
     3 | k = { type = "spring", between = ["seat", "grond"], stiffness = 3 }
@@ -133,6 +134,7 @@ TEST_CASE("a node at which a single element ends is told, with the name that may
   CHECK(warnings("seat", "seta") == R"(scene.toml:3:43: warning: nothing but `k` is at node `seta`: it carries no force
     3 | k = { type = "spring", between = ["seat", "seta"], stiffness = 3 }
       |                                           ^
+  a node is free until something holds it; the one that never moves is `ground`
 )");
   CHECK(warnings("seat", "Ground") == R"(scene.toml:3:43: warning: node `Ground` moves as any other does
     3 | k = { type = "spring", between = ["seat", "Ground"], stiffness = 3 }
