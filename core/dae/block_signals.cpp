@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "core/base/numerics.hpp"
@@ -45,6 +46,11 @@ BlockSignals::BlockSignals(const Network& network, const Structure& classified)
   out_.resize(blocks_->blocks.size());
   before_limits_ = out_;
   side_.assign(out_.size(), 0);
+  bounds_friction_.assign(out_.size(), 0);
+  largest_before_limits_.assign(out_.size(), 0);
+  for (const Network::Slider& slider : network.sliders) {
+    for (const Network::VaryingParameter& v : slider.varying) bounds_friction_[at(v.block)] = 1;
+  }
   for (const int block : blocks_->order) {
     if (!blocks_->blocks[at(block)].generates && blocks_->blocks[at(block)].law.delay == 0) run_.push_back(block);
   }
@@ -172,7 +178,14 @@ double BlockSignals::event_function(std::size_t limit) {
   const BlockLaw& law = blocks_->blocks[at(index)].law;
   const double v = before_limits_[at(index)].value;
   const double beyond = upper ? v - law.upper : law.lower - v;
-  return side_[at(index)] == (upper ? 1 : -1) ? beyond : -beyond;
+  // Where the input of a bound of friction only touches its own bound, its round-off is no event. Nothing but the slider sees that.
+  double band = 0;
+  if (bounds_friction_[at(index)]) {
+    double& largest = largest_before_limits_[at(index)];
+    largest = std::max(largest, std::abs(v));
+    band = numerics::sum_ulps * std::numeric_limits<double>::epsilon() * largest;
+  }
+  return (side_[at(index)] == (upper ? 1 : -1) ? beyond : -beyond) + band;
 }
 
 /// Block by block from the inputs on: an event at one may put the guard of another right that takes it in, as where the output of a

@@ -129,6 +129,8 @@ class BlockSignals {
   std::vector<int> state_blocks_;
   std::vector<Dual> out_, before_limits_;
   std::vector<signed char> side_;
+  std::vector<char> bounds_friction_;          ///< For each block: its output is a parameter of a slider.
+  std::vector<double> largest_before_limits_;  ///< For each of these.
   std::vector<Limit> limits_;
   struct Fired { int block; signed char side; };
   std::vector<Fired> fired_;

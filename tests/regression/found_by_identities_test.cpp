@@ -61,6 +61,18 @@ TEST_CASE("at a steady start a mass leans on its rigid stop, whatever else holds
   }
 }
 
+TEST_CASE("a brake at rest, whose normal force touches 0, stays at rest") {
+  for (const char* method : {"auto", "ida"}) {
+    for (const double offset : {1.0, 1.0 + 1e-15, 1.0 - 1e-15}) {
+      const RunTable rows = rows_of(fmt::format("[elements]\nma = {{ type = \"mass\", at = \"a\", mass = 1 }}\nmb = {{ type = \"mass\", at = \"b\", mass = 1 }}\n"
+                                                "k = {{ type = \"stop\", between = [\"a\", \"b\"], stiffness = 100, upper = 0.1 }}\n"
+                                                "br = {{ type = \"slider\", between = [\"b\", \"ground\"], coulomb = 0.5, normal = {{ sine = 1, frequency = 1, offset = {:.17g} }} }}", offset),
+                                    fmt::format("stop = 4\nmethod = \"{}\"", method), {"b.position", "b.velocity"});
+      for (std::size_t row = 0; row < rows.time().size(); ++row) CHECK_LE(std::abs(rows["b.position"][row]), 1e-15);
+    }
+  }
+}
+
 // The law is smooth: c w (1 + |w|/v). The same as a dashpot beside a dashpot with the exponent 2.
 TEST_CASE("a law with abs(w) starts from rest as the dashpots that it stands for") {
   for (const double accuracy : {1e-4, 1e-6, 1e-8}) {
