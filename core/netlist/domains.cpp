@@ -14,6 +14,9 @@ namespace {
 
 std::size_t at_index(int i) { return static_cast<std::size_t>(i); }
 
+/// Elements on the way of a domain that a message names: chains may have a million.
+constexpr std::size_t most_named = 8;
+
 const char* in_words(Domain domain) { return domain == Domain::rotation ? "rotation" : "translation"; }
 
 /// The domain that a type of the scene gives its nodes, if it differs from that of the scene for any of them.
@@ -71,6 +74,8 @@ class Spread {
     std::optional<Domain> domain = {};
     int by = -1;           ///< the element that gave it
     NodeId from = ground;  ///< the node at the other end of `by`; ground if the element has the domain itself
+    int giver = -1;        ///< the element that has the domain itself
+    int passed = 0;        ///< number of elements that pass it on from there
   };
 
   const Declaration& declaration(std::size_t e) const { return *context_.declarations[at_index(scene_.elements[e].declaration)]; }
@@ -99,7 +104,8 @@ class Spread {
     if (node == ground) return;
     Place& place = places_[at_index(node)];
     if (!place.domain) {
-      place = {domain, by, from};
+      const bool own = from == ground;
+      place = {domain, by, from, own ? by : places_[at_index(from)].giver, own ? 0 : places_[at_index(from)].passed + 1};
       reached_.push_back(node);
     } else if (*place.domain != domain) {
       refuse(node, domain, by, from);
@@ -120,15 +126,17 @@ class Spread {
 
   /// "`motor`", "`motor` through `k1`, `k2`": the element that has the domain, and those that pass it on.
   std::string way(int by, NodeId from) const {
+    const int giver = from == ground ? by : places_[at_index(from)].giver, passed = from == ground ? 0 : places_[at_index(from)].passed + 1;
+    const std::string name = "`" + scene_.elements[at_index(giver)].name + "`";
     std::vector<std::string> through;
-    while (from != ground) {
+    while (from != ground && through.size() < most_named) {
       through.push_back(scene_.elements[at_index(by)].name);
       by = places_[at_index(from)].by;
       from = places_[at_index(from)].from;
     }
     std::reverse(through.begin(), through.end());
-    const std::string giver = "`" + scene_.elements[at_index(by)].name + "`";
-    return through.empty() ? giver : giver + " through " + format_list(through);
+    if (from != ground) return fmt::format("{} through {} elements, the last ones {}", name, passed, format_list(through));
+    return through.empty() ? name : name + " through " + format_list(through);
   }
 
   const Scene& scene_;

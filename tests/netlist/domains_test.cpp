@@ -102,6 +102,14 @@ m  = { type = "mass", at = "d", mass = 1, domain = "translation" }
 J = { type = "inertia", at = "a", inertia = 1 }
 r = { type = "rack", between = ["x", "a"], radius = 1 }
 )~" + run_it).find("scene.toml:4:1: error: node `a` would be of rotation, by `J`, and of translation, by `r`") != std::string::npos);
+  // Of a long way the last elements are named.
+  const std::string far = refusal(R"~(
+[elements]
+J = { type = "inertia", at = "a", inertia = 1 }
+k = { type = "spring", between = ["a", "b"], stiffness = 5, repeat = { count = 3000, arrange = "series" } }
+m = { type = "mass", at = "b", mass = 1, domain = "translation" }
+)~" + run_it);
+  CHECK_MESSAGE(far.find("by `J` through 1500 elements, the last ones `k.1492`,") != std::string::npos, far);
 }
 
 TEST_CASE("domains: values are checked against the domain of their element") {
