@@ -121,8 +121,7 @@ ConvexNetwork::Outcome ConvexNetwork::search(const std::vector<double>& d) {
   double slope_low = slope_along(d, low), slope_high = slope_along(d, high), step = high;
   for (int k = 0; k < numerics::line_search_sections && slope_high > 0; ++k) {
     const double secant = low + (high - low) * slope_low / (slope_low - slope_high);
-    const double middle = low > 0 && high > numerics::distant_break * low ? std::sqrt(low * high) : (low + high) / 2;
-    step = k % 3 == 2 || std::isinf(slope_high) ? middle : std::min(std::max(secant, low), high);
+    step = k % 3 == 2 || std::isinf(slope_high) ? (low + high) / 2 : std::min(std::max(secant, low), high);
     const double slope = slope_along(d, step);
     if (std::abs(slope) <= numerics::line_search_slope * descent || step == low || step == high) break;
     (slope < 0 ? low : high) = step;

@@ -29,7 +29,7 @@ void BlockScales::find(Dae& dae, const Dae::View& view, const Magnitudes& seen, 
   for (std::size_t b = 0; b < output_seen_.size(); ++b) output_seen_[b] = std::max(output_seen_[b], std::abs(dae.inputs().blocks().out(static_cast<int>(b)).value));
   gains_.for_each([&](int block, BlockGains::Of of, int index, double gain, double together) {
     // Divided by `together` twice: the error of each quantity also contains the errors of the others.
-    const double share = 1 / (together * together);
+    const double allowed = output_seen_[at(block)] / (together * together * gain);
     const bool state = of == BlockGains::Of::state;
     const auto sort = static_cast<std::size_t>(state ? Sort::block : of == BlockGains::Of::position ? Sort::position : Sort::velocity);
     // Nodes that sticking sliders join have one velocity, but a position each.
@@ -37,8 +37,7 @@ void BlockScales::find(Dae& dae, const Dae::View& view, const Magnitudes& seen, 
     if (k >= most_[sort].size()) return;
     const double least = std::max(numerics::block_input_share, numerics::block_input_ulps * std::numeric_limits<double>::epsilon() / local) * seen.unknown[sort][k];
     // Of a state that has only begun to grow, the output shows as little as the state itself.
-    const double allowed = share * std::max(output_seen_[at(block)] / gain, state ? foreseen[sort][k] : 0.0);
-    if (allowed > 0) most_[sort][k] = std::min(most_[sort][k], std::max(allowed, least));
+    if (allowed > 0) most_[sort][k] = std::min(most_[sort][k], std::max({allowed, least, state ? foreseen[sort][k] / (together * together) : 0.0}));
   });
   if (!network_.blocks.sensors.empty()) find_behind_forces(dae, view, largest_force);
 }
