@@ -42,6 +42,22 @@ TEST_CASE("an inerter to ground that flies towards a stop, or runs free, is a ma
   }
 }
 
+TEST_CASE("at a steady start a mass leans on its rigid stop, although a vfm holds it in motion") {
+  for (const double stiffness : {90.0, 3e5}) {
+    for (const double bound : {-1e-4, -0.1, -0.23, -17.0}) {
+      CAPTURE(stiffness);
+      CAPTURE(bound);
+      const RunTable rows = rows_of(fmt::format("[elements]\nm = {{ type = \"mass\", at = \"a\", mass = 1 }}\noil = {{ type = \"vfm\", between = [\"a\", \"ground\"], damping = 2, stiffness = {} }}\n"
+                                                "wall = {{ type = \"stop\", between = [\"a\", \"ground\"], stiffness = \"inf\", lower = {} }}\nf = {{ type = \"force\", at = \"a\", force = -1.3 }}\n",
+                                                stiffness, bound), "stop = 1\nstart_from = \"steady\"", {"a.position", "wall.force"});
+      for (std::size_t row = 0; row < rows.time().size(); ++row) {
+        CHECK_LE(std::abs(rows["a.position"][row] / bound - 1), 1e-14);
+        CHECK_LE(std::abs(rows["wall.force"][row] + 1.3), 1e-12);
+      }
+    }
+  }
+}
+
 TEST_CASE("a brake at rest, whose normal force touches 0, stays at rest") {
   for (const char* method : {"auto", "ida"}) {
     for (const double offset : {1.0, 1.0 + 1e-15, 1.0 - 1e-15}) {
