@@ -17,7 +17,7 @@ class BlockSensors {
 
   /// Evaluates the velocities that blocks give before the laws, as they need states and positions alone. Only for Inputs::moves_by_blocks.
   void move_nodes(const double* y);
-  /// What blocks may sense: velocities of nodes, deflections of branches, arguments of rate laws.
+  /// Quantities that blocks may sense: velocities of nodes, deflections of branches, arguments of rate laws.
   struct Felt { const std::vector<double>&velocity, &deflection, &rate_argument; };
   /// Evaluates the states and sensor values; then all outputs.
   void feel(const double* y, const Felt& felt);

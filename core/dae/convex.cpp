@@ -243,7 +243,7 @@ bool ConvexNetwork::part_torn() {
 }
 
 /// Lets branches open until no prescribed nodes are torn from each other, as far as the laws permit. A branch that would then move
-/// as its law forbids sticks. What is torn then stays so.
+/// as its law forbids sticks. Nodes that are torn then stay torn.
 void ConvexNetwork::let_prescribed_part() {
   for (std::size_t tries = 0; tries <= 2 * branches_.size() && part_torn(); ++tries) {
     merge();

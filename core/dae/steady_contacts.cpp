@@ -15,7 +15,7 @@ void SteadyContacts::open(double load) {
   }
   for (const Laws<DeflectionBatch>& laws : network_.deflection_laws) {
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {
-      // What creeps holds nothing in place.
+      // A law that creeps holds nothing in place.
       if (!(laws.batch->steady(i).rest > 0)) continue;
       for (const int side : {-1, 1}) stiffness_ = std::max(stiffness_, laws.batch->slope(i, state_.p[at(laws.first) + i], side));
     }

@@ -55,7 +55,7 @@ class Spread {
     for (const NodeId node : {element.a, element.b, element.support}) {
       if (node == ground || !places_[at_index(node)].domain) continue;
       const Place& place = places_[at_index(node)];
-      return place.by == static_cast<int>(e) && place.from == ground ? "" : way(place.by, place.from);
+      return place.by == static_cast<int>(e) && place.from == ground ? "" : way(place);
     }
     return "";
   }
@@ -100,12 +100,16 @@ class Spread {
     }
   }
 
+  Place reached_by(Domain domain, int by, NodeId from) const {
+    if (from == ground) return {domain, by, from, by, 0};
+    return {domain, by, from, places_[at_index(from)].giver, places_[at_index(from)].passed + 1};
+  }
+
   void give(NodeId node, Domain domain, int by, NodeId from) {
     if (node == ground) return;
     Place& place = places_[at_index(node)];
     if (!place.domain) {
-      const bool own = from == ground;
-      place = {domain, by, from, own ? by : places_[at_index(from)].giver, own ? 0 : places_[at_index(from)].passed + 1};
+      place = reached_by(domain, by, from);
       reached_.push_back(node);
     } else if (*place.domain != domain) {
       refuse(node, domain, by, from);
@@ -119,15 +123,16 @@ class Spread {
     const std::string& name = scene_.nodes[at_index(node)].name;
     context_.diagnostics.error(
         element.spot,
-        fmt::format("node `{}` would be of {}, by {}, and of {}, by {}", name, in_words(*place.domain), way(place.by, place.from),
-                    in_words(domain), way(by, from)),
+        fmt::format("node `{}` would be of {}, by {}, and of {}, by {}", name, in_words(*place.domain), way(place), in_words(domain),
+                    way(reached_by(domain, by, from))),
         "a `rack` or a `screw` joins a rotating node and one that moves along a line; all other elements have both nodes in one domain");
   }
 
   /// "`motor`", "`motor` through `k1`, `k2`": the element that has the domain, and those that pass it on.
-  std::string way(int by, NodeId from) const {
-    const int giver = from == ground ? by : places_[at_index(from)].giver, passed = from == ground ? 0 : places_[at_index(from)].passed + 1;
-    const std::string name = "`" + scene_.elements[at_index(giver)].name + "`";
+  std::string way(const Place& place) const {
+    const std::string name = "`" + scene_.elements[at_index(place.giver)].name + "`";
+    int by = place.by;
+    NodeId from = place.from;
     std::vector<std::string> through;
     while (from != ground && through.size() < most_named) {
       through.push_back(scene_.elements[at_index(by)].name);
@@ -135,7 +140,7 @@ class Spread {
       from = places_[at_index(from)].from;
     }
     std::reverse(through.begin(), through.end());
-    if (from != ground) return fmt::format("{} through {} elements, the last ones {}", name, passed, format_list(through));
+    if (from != ground) return fmt::format("{} through {} elements, the last ones {}", name, place.passed, format_list(through));
     return through.empty() ? name : name + " through " + format_list(through);
   }
 

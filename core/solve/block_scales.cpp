@@ -36,7 +36,7 @@ void BlockScales::find(Dae& dae, const Dae::View& view, const Magnitudes& seen, 
     const std::size_t k = at(state ? blocks.state_of(index) : of == BlockGains::Of::position ? index : dae.structure().rigid[at(index)]);
     if (k >= most_[sort].size()) return;
     const double least = std::max(numerics::block_input_share, numerics::block_input_ulps * std::numeric_limits<double>::epsilon() / local) * seen.unknown[sort][k];
-    // Of a state that has only begun to grow, the output shows as little as the state itself.
+    // While a state has only begun to grow, the output behind it is as small as the state.
     if (allowed > 0) most_[sort][k] = std::min(most_[sort][k], std::max({allowed, least, state ? foreseen[sort][k] / (together * together) : 0.0}));
   });
   if (!network_.blocks.sensors.empty()) find_behind_forces(dae, view, largest_force);

@@ -232,7 +232,7 @@ void UnknownRoundoff::find_unknowns(const Loads& loads, const Dae::View& view) {
   }
 }
 
-/// A block's state integrates the round-off of what the block senses. A lag forgets it with its time constant. The velocity in a law of the
+/// A block's state integrates the round-off of the block's inputs. A lag forgets it with its time constant. The velocity in a law of the
 /// netlist is a small difference where both ends move almost alike.
 UnknownRoundoff::Drift UnknownRoundoff::drift_of_state(std::size_t state) const {
   constexpr double eps = numerics::balanced_force_ulps * std::numeric_limits<double>::epsilon();

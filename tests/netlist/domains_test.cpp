@@ -102,7 +102,7 @@ m  = { type = "mass", at = "d", mass = 1, domain = "translation" }
 J = { type = "inertia", at = "a", inertia = 1 }
 r = { type = "rack", between = ["x", "a"], radius = 1 }
 )~" + run_it).find("scene.toml:4:1: error: node `a` would be of rotation, by `J`, and of translation, by `r`") != std::string::npos);
-  // Of a long way the last elements are named.
+  // A message names only the last elements of a long way.
   const std::string far = refusal(R"~(
 [elements]
 J = { type = "inertia", at = "a", inertia = 1 }

@@ -1,5 +1,5 @@
-// What is driven against a rigid stop, or against a freewheel, through something else that cannot give way is jammed, whatever friction, springs
-// or loads stand beside it. That is an error, never a motion that a law forbids.
+// A motion that pushes a mass into a rigid stop or against a freewheel jams if nothing between them gives way. Friction, springs or loads beside it
+// change nothing. A jam is an error, never a motion that a law forbids.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 

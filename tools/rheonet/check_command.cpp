@@ -28,7 +28,7 @@ ExitStatus check_scene(const Arguments& arguments) {
   }
   if (arguments.verbose) fmt::print("{}", demo_text(read.presentation.demo));
   const std::string claims = scene.claims.empty() ? "" : ", " + count(scene.claims.size(), "claim", "claims");
-  // What is left are warnings.
+  // A scene was read, so these are warnings.
   const std::string found = read.diagnostics.empty() ? "no mistake found" : "no error, but " + count(read.diagnostics.size(), "warning", "warnings");
   fmt::print("{}: {} ({}, {}{})\n", printable(arguments.scene), found,
              count(scene.elements.size(), "element", "elements"), count(scene.nodes.size() - 1, "node", "nodes"),
