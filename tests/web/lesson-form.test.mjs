@@ -68,6 +68,8 @@ const pass = async (page) => {
   await form(page).waitFor({ state: 'detached' });
   await offered(page);
 };
+// Until a mistake is shown at a field that can be seen: one that is hidden keeps the mark that it had.
+const marked = (page) => form(page).locator('[aria-invalid]:visible').first().waitFor();
 const whyOf = (page, field) => field.evaluate((input) => document.getElementById(input.getAttribute('aria-describedby')).textContent);
 
 test('a lesson is made from nothing, sent as a link, and taken by a student', async () => {
@@ -211,7 +213,7 @@ test('mistakes are shown at their fields, and what was typed stays when the form
   await box(page, 'Axis to').fill('8 N');
   await box(page, 'Minutes').fill('ten');
   await show(page);
-  await page.waitForFunction(() => document.querySelector('dialog[open] [aria-invalid]'));
+  await marked(page);
   assert.match(await whyOf(page, box(page, 'Axis to')), /expected a torque.*found a force/);
   assert.match(await whyOf(page, box(page, 'Minutes')), /`minutes` is a number above 0/);
   assert.equal(await whyOf(page, box(page, 'Axis from')), '');
@@ -224,7 +226,7 @@ test('mistakes are shown at their fields, and what was typed stays when the form
   await box(page, 'Its curve', 2).fill('2 "N');
   await form(page).getByRole('radio').nth(2).check();
   await show(page);
-  await page.waitForFunction(() => document.querySelector('dialog[open] [aria-invalid]'));
+  await marked(page);
   assert.equal(await whyOf(page, box(page, 'Its curve', 0)), '');
   assert.match(await whyOf(page, box(page, 'Its curve', 1)), /`Td`/);
   assert.notEqual(await whyOf(page, box(page, 'Its curve', 2)), '');
