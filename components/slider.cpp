@@ -66,7 +66,7 @@ const RegisterComponent register_slider({
             .equation = R"(w = 0\ \text{with}\ |f| \le F_s,\qquad\text{or}\qquad f = F_c\operatorname{sgn} w)",
             .source = "C. A. de Coulomb 1784; P. L. Dahl 1982, Eq. 20",
             .notes = "It stores no energy; f w becomes heat. Where the balance of forces does not determine how sticking sliders share a load, "
-                     "they share it with the least sum of squares within their bounds.\n"
+                     "they share it with the least sum of squares of their forces, within their bounds.\n"
                      "With `stribeck` it slides with f = [Fc + (Fs - Fc) exp(-abs(w/vs)^n)] sgn(w): from breakaway at rest down to Fc. Both nodes then "
                      "need a mass or a prescribed motion.\n"
                      "`coulomb` may be a curve over the speed: an expression in w, or points (speed, force). Its value at rest is the breakaway force, "

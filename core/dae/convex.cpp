@@ -254,8 +254,14 @@ void ConvexNetwork::let_prescribed_part() {
     }
     merge();
   }
+  tear([&](int node) { return is_torn(node); });
+}
+
+/// Marks nodes as torn.
+template <class Test>
+void ConvexNetwork::tear(const Test& is) {
   for (std::size_t k = 0; k < u_.size(); ++k) {
-    if (!is_torn(static_cast<int>(k))) continue;
+    if (!is(static_cast<int>(k))) continue;
     torn_.resize(u_.size(), 0);
     torn_[k] = 1;
     torn_clusters_ = clusters_;
@@ -350,8 +356,12 @@ ConvexNetwork::Outcome ConvexNetwork::solve() {
         const double w = nodal_difference(b);
         if (std::abs(w - b.w) > difference_rounding * (std::abs(base_[at(b.a)]) + std::abs(base_[at(b.b)]))) b.w = w;
       }
-      part_torn_equations();
+      const std::vector<std::size_t> one_sided = part_torn_equations();
       meet_equations();
+      const bool met = std::none_of(equations_.begin(), equations_.end(), [&](const Equation& e) { return torn(e) != 0; });
+      for (const std::size_t k : one_sided) {
+        if (!met && branches_[k].stuck) tear([&](int node) { return fixed_[at(node)] && clusters_.joined(node, branches_[k].a); });
+      }
     }
     bool settled = balanced(sums) || full_steps_ >= numerics::settled_newton_steps || idle >= numerics::settled_newton_steps;
     if (!settled) {

@@ -131,7 +131,7 @@ class ConvexNetwork {
   void classify_equations();
   void share_with_open_equations(const std::vector<std::size_t>& open, const std::vector<int>& row, const Eigen::VectorXd& load, double roundoff);
   double torn(const Equation& equation) const;
-  void part_torn_equations();
+  std::vector<std::size_t> part_torn_equations();
   void meet_equations();
   /// Argument of the law, from the values of the nodes.
   double nodal_difference(const Branch& b) const {
@@ -143,6 +143,8 @@ class ConvexNetwork {
   void stick_at_first();
   bool stick_where_met();
   void let_prescribed_part();
+  template <class Test>
+  void tear(const Test& is);
   bool is_torn(int node) const;
   bool part_torn();
   bool stick_where_idle();

@@ -143,14 +143,16 @@ double Impacts::collide(double t, const std::vector<double>& momentum, const std
 /// An impact, in two phases (S. D. Poisson 1838). First all contacts take the impulses that end the motions they forbid: a plastic
 /// impact. Then each contact in `hit` gives back its coefficient of restitution times its impulse. So w = -e w_before at a
 /// single contact, and at all that are hit at once with the same e (Newton's law). Contacts that only touch give nothing back,
-/// and neither do those in `settles`. Returns the energy that turns into heat [J]: the work of the impulses at the contacts.
+/// and neither do those in `settles`, which stay in contact. Returns the energy that turns into heat [J]: the work of the impulses at the contacts.
 double Impacts::rebound(double t, const std::vector<int>& hit, const std::vector<int>& settles, State& state) const {
   const std::vector<double> none(structure_.kind.size(), 0);
   std::vector<double> given(network_.sliders.size(), 0), momentum(none);
   double heat = 0;
+  Modes held{std::vector<signed char>(network_.sliders.size(), Modes::forward), {}};
+  for (const int k : settles) held.slider[at(k)] = Modes::stuck;
   const auto phase = [&] {
     const std::vector<double> before = slider_velocities(net_, state);
-    const std::vector<double> impulse = share_impulses(t, none, momentum, state);
+    const std::vector<double> impulse = share_impulses(t, none, momentum, state, &held);
     const std::vector<double> after = slider_velocities(net_, state);
     for (std::size_t k = 0; k < given.size(); ++k) heat += (impulse[k] + given[k]) * (before[k] + after[k]) / 2;
     return impulse;

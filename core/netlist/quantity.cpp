@@ -128,7 +128,8 @@ std::string hint_for(const Number& number, Quantity quantity, Domain domain, dou
   // An angle is a pure number in SI, so a fit in the other domain is no evidence.
   const Dimension elsewhere = dimension_of(quantity, other, flow_index);
   if (number.dimension.same(elsewhere) && !elsewhere.is_number())
-    return rotation ? "this is of rotation, by `domain` or by another element at its nodes"
+    return rotation ? std::string("this is of rotation, by `domain` or by another element at its nodes") +
+                          (quantity == Quantity::force ? "; a force times the radius at which it acts is a torque" : "")
                     : "what is of rotation says so: `domain = \"rotation\"`, of the scene or of an element";
   const Dimension acceleration{1, 0, -2};
   if (number.dimension.same(dimension_of(quantity, domain, flow_index) * acceleration))

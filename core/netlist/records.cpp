@@ -119,8 +119,9 @@ void refuse(const Path& path, const SceneIndex::Found& found, bool sensed, Conte
     return;
   }
   const std::string meant = meant_channel(path.channel, known);
+  const bool of_element = found.node >= 0 && (path.channel == "force" || path.channel == "displacement");
   context.diagnostics.error(
-      spot, "`" + path.object + "` has no `" + path.channel + "`",
+      spot, "`" + path.object + "` has no `" + path.channel + (of_element ? "`: it is a node, only elements have one" : "`"),
       meant.empty() ? "it has " + list_names(known, "and") : "did you mean `" + path.object + "." + meant + "`?");
 }
 

@@ -12,6 +12,7 @@
 #include "core/base/disjoint_sets.hpp"
 #include "core/base/format_list.hpp"
 #include "core/base/index.hpp"
+#include "core/netlist/diagnostic_list.hpp"
 #include "core/network/component.hpp"
 #include "core/network/network.hpp"
 
@@ -183,6 +184,19 @@ class FreeEndSearch {
   std::vector<char> held_;
 };
 
+/// Names of the nodes that no element joins to another.
+std::vector<std::string> lone_nodes(const Scene& scene) {
+  std::vector<char> lone(scene.nodes.size(), 1);
+  for (const SceneElement& element : scene.elements) {
+    if (!element.at) for_each_node(element, [&](NodeId node) { lone[at(node)] = 0; });
+  }
+  std::vector<std::string> names;
+  for (std::size_t n = 1; n < lone.size(); ++n) {
+    if (lone[n]) names.push_back(scene.nodes[n].name);
+  }
+  return names;
+}
+
 }  // namespace
 
 FreeEnds find_free_ends(const Scene& scene, const std::vector<Reduced>& laws) { return FreeEndSearch(scene, laws).find(); }
@@ -194,6 +208,7 @@ std::vector<std::string> tell_free_ends(const Scene& scene, const FreeEnds& ends
     if (ends.on[n] != static_cast<NodeId>(n)) hanging[ends.on[n]].nodes.push_back(scene.nodes[n].name);
   }
   for (const int e : ends.elements) hanging[ends.on[at(scene.elements[at(e)].a)]].elements.push_back(scene.elements[at(e)].name);
+  const std::vector<std::string> lone = lone_nodes(scene);
   std::vector<std::string> words;
   for (const auto& [node, what] : hanging) {
     if (what.elements.size() < 2) continue;
@@ -201,6 +216,8 @@ std::vector<std::string> tell_free_ends(const Scene& scene, const FreeEnds& ends
     const std::string goes = node == ground ? (several ? "rest" : "rests") : (several ? "move with it" : "moves with it");
     words.push_back(fmt::format("node{} {} hang{} on `{}` alone and {}: {} carry no force", several ? "s" : "", format_list(what.nodes),
                                 several ? "" : "s", scene.nodes[at(node)].name, goes, format_list(what.elements)));
+    const std::string hint = several ? "" : did_you_mean(what.nodes.front(), lone);
+    if (!hint.empty()) words.back() += "; " + hint;
   }
   return words;
 }

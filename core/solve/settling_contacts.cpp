@@ -13,6 +13,7 @@ std::vector<int> SettlingContacts::find(System& system, const Tolerances& tolera
                                         const std::vector<double>& yp) {
   const Network& network = system.dae.network();
   std::vector<int> result;
+  double since = t;  // the earliest impact before those of now whose hops end
   for (std::size_t k = 0; k < network.sliders.size(); ++k) {
     const Network::Slider& slider = network.sliders[k];
     const int side = slider.contact && !system.structure.stuck[k] ? network.contact_of(slider) : 0;
@@ -27,9 +28,13 @@ std::vector<int> SettlingContacts::find(System& system, const Tolerances& tolera
     const double kept = measured ? std::max(speed / before.speed, hop / before.hop) : e;
     const double next = measured ? kept * hop : pressing > 0 ? 2 * e * speed / pressing : std::numeric_limits<double>::infinity();
     const double allowed = numerics::settled_hops * accuracy_;
-    if (kept < 1 && e * speed <= allowed * tolerances.seen().flow[at(slider.gauge)] && next / (1 - kept) <= allowed * length_) {
-      result.push_back(static_cast<int>(k));
-    }
+    if (!(kept < 1 && kept * speed <= allowed * tolerances.seen().flow[at(slider.gauge)] && next / (1 - kept) <= allowed * length_)) continue;
+    if (measured || e > 0) result.push_back(static_cast<int>(k));
+    if (measured) since = std::min(since, before.t);
+  }
+  // Contacts that the same series of impacts opens and closes would hop again.
+  for (std::size_t k = 0; k < network.sliders.size() && since < t; ++k) {
+    if (system.structure.stuck[k] && last_[k].hop > 0 && last_[k].t >= since) result.push_back(static_cast<int>(k));
   }
   return result;
 }

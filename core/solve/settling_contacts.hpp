@@ -17,7 +17,8 @@ class SettlingContacts {
  public:
   SettlingContacts(const Network& network, double accuracy, double length) : accuracy_(accuracy), length_(length), last_(network.sliders.size()) {}
 
-  /// Contacts that the last step has closed, and that rest from now on: sliders with a gauge.
+  /// Contacts that rest from now on: those that the last step has closed, and those that impacts of the same series opened and closed before.
+  /// Sliders with a gauge.
   std::vector<int> find(System& system, const Tolerances& tolerances, double t, const std::vector<double>& y, const std::vector<double>& yp);
 
  private:

@@ -268,7 +268,7 @@ scene.toml:5:27: error: `k1` has no `torque`
     5 | record = ["k2.force", "k1.torque", "a.force", "k1", "k1.speed", "ground.velocity", "a.velocty", 3]
       |                           ^
   did you mean `k1.force`?
-scene.toml:5:39: error: `a` has no `force`
+scene.toml:5:39: error: `a` has no `force`: it is a node, only elements have one
     5 | record = ["k2.force", "k1.torque", "a.force", "k1", "k1.speed", "ground.velocity", "a.velocty", 3]
       |                                       ^
   it has `position`, `velocity` and `acceleration`

@@ -216,7 +216,7 @@ struct CommandLine {
     add_list(command, "--without", arguments.without, "leave out these effects: inertia, or elasticity:oil for one element",
              "EFFECT,...");
     add_list(command, "--only", only, "keep only these effects; `none` leaves out all", "EFFECT,...");
-    add_list(command, "--keep", arguments.keep, "do not make these reductions (see the manual)", "NAME,...");
+    add_list(command, "--keep", arguments.keep, "switch off these reductions of the equations (see the manual)", "NAME,...");
   }
   CLI::Option* add_scene(CLI::App* command) {
     CLI::Option* scene = command->add_option("SCENE", arguments.scene, "the netlist, a TOML file")->required()->type_name("");
@@ -244,7 +244,7 @@ struct CommandLine {
     run->add_flag("--certify", arguments.certify,
                   "estimate the error of each record from a tighter run, and tighten until it meets the accuracy");
     for (const char* other : {"--certify", "--plot"}) run->get_option("--sensitivities")->excludes(run->get_option(other));
-    run->add_flag("--profile", arguments.profile, "list the elements and nodes that limit the steps");
+    run->add_flag("--profile", arguments.profile, "list the elements and nodes that limit the time steps");
     run->add_option("--order", order, "highest order of the integration method, 1 to 5 (default 5)")->type_name("N");
     run->add_flag("-q,--quiet", arguments.quiet, "no progress bar and no summary");
   }
