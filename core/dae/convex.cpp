@@ -257,7 +257,6 @@ void ConvexNetwork::let_prescribed_part() {
   tear([&](int node) { return is_torn(node); });
 }
 
-/// Marks nodes as torn.
 template <class Test>
 void ConvexNetwork::tear(const Test& is) {
   for (std::size_t k = 0; k < u_.size(); ++k) {
@@ -356,12 +355,9 @@ ConvexNetwork::Outcome ConvexNetwork::solve() {
         const double w = nodal_difference(b);
         if (std::abs(w - b.w) > difference_rounding * (std::abs(base_[at(b.a)]) + std::abs(base_[at(b.b)]))) b.w = w;
       }
-      const std::vector<std::size_t> one_sided = part_torn_equations();
+      part_torn_equations();
       meet_equations();
-      const bool met = std::none_of(equations_.begin(), equations_.end(), [&](const Equation& e) { return torn(e) != 0; });
-      for (const std::size_t k : one_sided) {
-        if (!met && branches_[k].stuck) tear([&](int node) { return fixed_[at(node)] && clusters_.joined(node, branches_[k].a); });
-      }
+      tear([&](int node) { return fixed_[at(node)] && beside_torn_equation(node); });
     }
     bool settled = balanced(sums) || full_steps_ >= numerics::settled_newton_steps || idle >= numerics::settled_newton_steps;
     if (!settled) {

@@ -256,24 +256,33 @@ double ConvexNetwork::torn(const Equation& equation) const {
   return std::abs(sum) > numerics::torn_velocities * size ? sum : 0;
 }
 
-/// Where sticking branches hold the nodes of an equation that does not hold, those at its nodes open. Returns those of them that forbid a side.
-std::vector<std::size_t> ConvexNetwork::part_torn_equations() {
+/// Where sticking branches hold the nodes of an equation that does not hold, those at its nodes open.
+void ConvexNetwork::part_torn_equations() {
   bool any = false;
-  std::vector<std::size_t> one_sided;
   const std::vector<char> dependent = dependent_equations();
   for (std::size_t e = 0; e < equations_.size(); ++e) {
     if (!dependent[e] || torn(equations_[e]) == 0) continue;
-    for (std::size_t k = 0; k < branches_.size(); ++k) {
-      Branch& b = branches_[k];
+    for (Branch& b : branches_) {
       const auto beside = [&](int node) { return clusters_.joined(node, b.a); };
       if (!b.stuck || (std::isinf(b.law.low) && std::isinf(b.law.high)) || std::none_of(equations_[e].node.begin(), equations_[e].node.end(), beside)) continue;
       b.stuck = false;
       any = true;
-      if (std::isinf(b.law.low) || std::isinf(b.law.high)) one_sided.push_back(k);
     }
   }
   if (any) merge();
-  return one_sided;
+}
+
+/// Whether sticking branches join the node to one of an equation that does not hold, and not by the round-off of its velocities.
+bool ConvexNetwork::beside_torn_equation(int node) const {
+  return std::any_of(equations_.begin(), equations_.end(), [&](const Equation& e) {
+    double size = 0;
+    bool beside = false;
+    for (std::size_t i = 0; i < e.node.size(); ++i) {
+      size += std::abs(e.factor[i] * origin_[at(e.node[i])]);
+      beside = beside || clusters_.joined(node, e.node[i]);
+    }
+    return beside && std::abs(torn(e)) > numerics::torn_velocities * size;
+  });
 }
 
 /// Brings the start values to where the equations hold, by the least change that the inertias allow. Later steps keep them.

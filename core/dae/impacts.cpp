@@ -73,6 +73,9 @@ std::vector<int> moving_backwards(const EventNetwork& net, const State& state) {
   return result;
 }
 
+/// Whether the law lets its ends not move so.
+bool forbids(const ConvexNetwork::Law& law, double w) { return (w < 0 && std::isinf(law.low)) || (w > 0 && std::isinf(law.high)); }
+
 }  // namespace
 
 void Impacts::resolve(double t, const std::vector<double>& momentum, const FiredGuards& fired, const Modes& modes, State& state,
@@ -116,15 +119,18 @@ double Impacts::collide(double t, const std::vector<double>& momentum, const std
   const auto in_contact = [&](int k) { return network_.sliders[at(k)].contact.has_value(); };
   std::copy_if(backwards.begin(), backwards.end(), std::back_inserter(hit_), in_contact);
   std::erase_if(backwards, in_contact);
-  // Thrown back, they are apart, however short the hop is: mode selection looks further ahead.
+  // Thrown back, or left behind by what another impact takes away, they are apart, however short the hop is: mode selection looks further ahead.
   const std::vector<double> w = slider_velocities(net_, state);
-  for (const int k : hit_) {
-    const Network::Slider& slider = network_.sliders[at(k)];
-    const int side = network_.contact_of(slider);
-    if (slider.contact->restitution == 0 || contains(settles, k) || !(side * w[at(k)] < 0)) continue;
+  for (std::size_t k = 0; k < w.size(); ++k) {
+    const Network::Slider& slider = network_.sliders[k];
+    const auto& [element, a, b] = slider.branch;
+    const int side = slider.contact ? network_.contact_of(slider) : 0;
+    const bool hit = contains(hit_, static_cast<int>(k));
+    const double roundoff = hit ? 0 : numerics::equal_energies * (std::abs(net_.velocity(a, state)) + std::abs(net_.velocity(b, state)));
+    if (hit_.empty() || (hit ? slider.contact->restitution == 0 : net_.massless(a) || net_.massless(b)) || contains(settles, static_cast<int>(k)) || !(-side * w[k] > roundoff)) continue;
     count_from_contact(network_, slider, state);
     open_contact(network_, slider);
-    change.impacts.push_back({slider.branch.element, -side});
+    if (hit) change.impacts.push_back({element, -side});
   }
   // A freewheel that ceases to run ahead has the round-off of its event as its velocity: no impact.
   const bool impact = lost > numerics::equal_energies * largest_kinetic_;
@@ -196,46 +202,68 @@ double Impacts::turn_trains(double t, State& state, std::vector<std::string>& no
 /// Changes the velocities of masses by impulses,
 ///     minimise 1/2 (v - v0)' M (v - v0) - momentum' v     with     w in the permitted direction, at every law without a bound.
 /// Prescribed velocities change by `jump`. Friction, springs and dashpots take no impulse, but the sliders that stick in `held` do.
+/// Laws whose ends part, and still part afterwards, are left out: round-off and regularisation of their impulses would act on masses that nothing touches.
 std::vector<double> Impacts::share_impulses(double t, const std::vector<double>& jump, const std::vector<double>& momentum, State& state,
                                                     const Modes* held) const {
-  ConvexNetwork problem(static_cast<int>(structure_.kind.size()));
-  std::vector<char> reached(structure_.kind.size(), 0);  // by some impulse
-  const auto add = [&](const Branch& b, const ConvexNetwork::Law& law) {
-    reached[at(b.a)] = reached[at(b.b)] = 1;
-    return problem.add(net_.slot(b.a), net_.slot(b.b), law);
-  };
-  for (const auto& [branch, inertance] : network_.inerters) add(branch, {.backward = inertance, .forward = inertance, .of_change = true, .inertial = true});
-  constexpr double unlimited = std::numeric_limits<double>::infinity();
-  const auto impulse = [](const Bounds& bounds) { return std::isinf(bounds.sliding.value) ? bounds.sliding.value : 0; };
-  std::vector<int> branch(network_.sliders.size(), -1);
-  for (std::size_t k = 0; k < network_.sliders.size(); ++k) {
-    ConvexNetwork::Law law{.low = -impulse(inputs_.box(k).backward), .high = impulse(inputs_.box(k).forward)};
-    if (held && held->slider[k] == Modes::stuck) law = {.low = -unlimited, .high = unlimited};
-    if (law.low < law.high) branch[k] = add(network_.sliders[k].branch, law);
-  }
-  for (std::size_t n = 0; n < structure_.kind.size(); ++n) {
-    const auto node = static_cast<NodeId>(n);
-    if (structure_.kind[n] == Kind::known) {
-      problem.start(net_.slot(node), net_.given_velocity(node) - jump[n]);
-      problem.fix(net_.slot(node), jump[n]);
-      continue;
-    }
-    problem.start(net_.slot(node), state.velocity[n]);
-    problem.load(net_.slot(node), momentum[n]);
-    if (structure_.kind[n] == Kind::massive) {
-      problem.set_inertia(net_.slot(node), structure_.mass[n]);
-    } else if (!reached[n]) {
-      problem.fix(net_.slot(node), 0);
-    }
-  }
   std::vector<double> before = state.velocity;
   for (std::size_t n = 0; n < before.size(); ++n) {
     if (structure_.kind[n] == Kind::known) before[n] = net_.given_velocity(static_cast<NodeId>(n)) - jump[n];
   }
   std::vector<double> slips = slips_of_trains(network_, before);
   for (double& slip : slips) slip = -slip;
-  net_.tie_trains(problem, slips);
-  if (problem.solve() != ConvexNetwork::Outcome::solved) report_undecided(network_, at_time(*network_.scene, t));
+  constexpr double unlimited = std::numeric_limits<double>::infinity();
+  const auto impulse = [](const Bounds& bounds) { return std::isinf(bounds.sliding.value) ? bounds.sliding.value : 0; };
+  std::vector<ConvexNetwork::Law> laws;
+  std::vector<char> parts;  // its ends part, as the law permits
+  for (std::size_t k = 0; k < network_.sliders.size(); ++k) {
+    const auto& [element, a, b] = network_.sliders[k].branch;
+    laws.push_back({.low = -impulse(inputs_.box(k).backward), .high = impulse(inputs_.box(k).forward)});
+    if (held && held->slider[k] == Modes::stuck) laws.back() = {.low = -unlimited, .high = unlimited};
+    const double w = before[at(a)] - before[at(b)];
+    parts.push_back(w != 0 && !forbids(laws.back(), w));
+  }
+  std::vector<int> branch;
+  const auto pose = [&] {
+    ConvexNetwork problem(static_cast<int>(structure_.kind.size()));
+    std::vector<char> reached(structure_.kind.size(), 0);  // by some impulse
+    const auto add = [&](const Branch& b, const ConvexNetwork::Law& law) {
+      reached[at(b.a)] = reached[at(b.b)] = 1;
+      return problem.add(net_.slot(b.a), net_.slot(b.b), law);
+    };
+    for (const auto& [ends, inertance] : network_.inerters) add(ends, {.backward = inertance, .forward = inertance, .of_change = true, .inertial = true});
+    branch.assign(laws.size(), -1);
+    for (std::size_t k = 0; k < laws.size(); ++k) {
+      if (laws[k].low < laws[k].high && !parts[k]) branch[k] = add(network_.sliders[k].branch, laws[k]);
+    }
+    for (std::size_t n = 0; n < structure_.kind.size(); ++n) {
+      const int node = net_.slot(static_cast<NodeId>(n));
+      problem.start(node, before[n]);
+      if (structure_.kind[n] == Kind::known) {
+        problem.fix(node, jump[n]);
+        continue;
+      }
+      problem.load(node, momentum[n]);
+      if (structure_.kind[n] == Kind::massive) {
+        problem.set_inertia(node, structure_.mass[n]);
+      } else if (!reached[n]) {
+        problem.fix(node, 0);
+      }
+    }
+    net_.tie_trains(problem, slips);
+    if (problem.solve() != ConvexNetwork::Outcome::solved) report_undecided(network_, at_time(*network_.scene, t));
+    return problem;
+  };
+  ConvexNetwork problem = pose();
+  for (bool again = true; again;) {
+    again = false;
+    for (std::size_t k = 0; k < laws.size(); ++k) {
+      const auto& [element, a, b] = network_.sliders[k].branch;
+      if (!parts[k] || !forbids(laws[k], problem.difference(net_.slot(a), net_.slot(b)))) continue;
+      parts[k] = 0;
+      again = true;
+    }
+    if (again) problem = pose();
+  }
   std::vector<char> of_train(structure_.kind.size(), 0);  // their velocities follow from those of masses
   for (const Network::Train& train : network_.trains) {
     for (const NodeId node : train.node) of_train[at(node)] = structure_.kind[at(node)] != Kind::known;
