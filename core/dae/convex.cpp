@@ -242,17 +242,22 @@ bool ConvexNetwork::part_torn() {
   return false;
 }
 
+/// Branches whose ends go as their laws forbid stick.
+void ConvexNetwork::stick_where_forbidden() {
+  for (Branch& b : branches_) {
+    if (b.stuck || !b.jumps) continue;
+    b.w = nodal_difference(b);
+    if (b.w != 0 && b.forbids(b.w)) b.stuck = true;
+  }
+  merge();
+}
+
 /// Lets branches open until no prescribed nodes are torn from each other, as far as the laws permit. A branch that would then move
 /// as its law forbids sticks. Nodes that are torn then stay torn.
 void ConvexNetwork::let_prescribed_part() {
   for (std::size_t tries = 0; tries <= 2 * branches_.size() && part_torn(); ++tries) {
     merge();
-    for (Branch& b : branches_) {
-      if (b.stuck || !b.jumps) continue;
-      b.w = nodal_difference(b);
-      if (b.w != 0 && b.forbids(b.w)) b.stuck = true;
-    }
-    merge();
+    stick_where_forbidden();
   }
   tear([&](int node) { return is_torn(node); });
 }
@@ -263,8 +268,18 @@ void ConvexNetwork::tear(const Test& is) {
     if (!is(static_cast<int>(k))) continue;
     torn_.resize(u_.size(), 0);
     torn_[k] = 1;
-    torn_clusters_ = clusters_;
   }
+  if (torn_.empty()) return;
+  DisjointSets together(u_.size());
+  for (const Branch& b : branches_) {
+    if (b.stuck) together.join(b.a, b.b);
+  }
+  for (const Equation& e : equations_) {
+    if (torn(e) == 0) continue;
+    for (const int node : e.node) together.join(node, e.node[0]);
+  }
+  torn_clusters_ = NodeClusters(static_cast<int>(u_.size()));
+  torn_clusters_.merge(together, [](std::size_t) { return 0.0; });
 }
 
 /// Sums the forces at all free clusters; true if the sums are round-off.

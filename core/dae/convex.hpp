@@ -85,7 +85,7 @@ class ConvexNetwork {
   }
   /// Whether sticking branches join these nodes. After `solve`.
   bool joined(int a, int b) const { return clusters_.joined(a, b); }
-  /// Whether a prescribed node cannot move as prescribed, because laws without a bound hold it to another one: then the nodes that they join to it.
+  /// Whether a prescribed node cannot move as prescribed, because laws without a bound hold it to another one: then the nodes that these, and equations, join to it.
   /// After `solve`.
   bool torn(int node) const { return !torn_.empty() && torn_[at(node)]; }
   bool torn_with(int node, int other) const { return torn_clusters_.joined(node, other); }
@@ -143,6 +143,7 @@ class ConvexNetwork {
   void choose_weak();
   void stick_at_first();
   bool stick_where_met();
+  void stick_where_forbidden();
   void let_prescribed_part();
   template <class Test>
   void tear(const Test& is);

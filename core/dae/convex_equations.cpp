@@ -269,7 +269,9 @@ void ConvexNetwork::part_torn_equations() {
       any = true;
     }
   }
-  if (any) merge();
+  if (!any) return;
+  merge();
+  stick_where_forbidden();
 }
 
 /// Whether sticking branches join the node to one of an equation that does not hold, and not by the round-off of its velocities.

@@ -199,6 +199,20 @@ double Impacts::turn_trains(double t, State& state, std::vector<std::string>& no
   return lost;
 }
 
+/// Refuses an impact that would stop what a motion moves on through a train.
+void Impacts::refuse_jams(double t, const ConvexNetwork& problem) const {
+  const double fast = net_.inputs.reach().velocity;
+  for (const Network::Train& train : network_.trains) {
+    double slip = 0, size = fast;
+    for (std::size_t i = 0; i < train.node.size(); ++i) {
+      const double velocity = train.factor[i] * problem.value(net_.slot(train.node[i]));
+      slip += velocity;
+      size += std::abs(velocity);
+    }
+    if (std::abs(slip) > numerics::equal_energies * size) refuse_blocked_motions(net_, t, problem);
+  }
+}
+
 /// Changes the velocities of masses by impulses,
 ///     minimise 1/2 (v - v0)' M (v - v0) - momentum' v     with     w in the permitted direction, at every law without a bound.
 /// Prescribed velocities change by `jump`. Friction, springs and dashpots take no impulse, but the sliders that stick in `held` do.
@@ -264,6 +278,7 @@ std::vector<double> Impacts::share_impulses(double t, const std::vector<double>&
     }
     if (again) problem = pose();
   }
+  refuse_jams(t, problem);
   std::vector<char> of_train(structure_.kind.size(), 0);  // their velocities follow from those of masses
   for (const Network::Train& train : network_.trains) {
     for (const NodeId node : train.node) of_train[at(node)] = structure_.kind[at(node)] != Kind::known;

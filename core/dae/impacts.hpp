@@ -24,6 +24,7 @@ class Impacts {
   double halt(double t, const std::vector<int>& events, const Modes& modes, State& state, std::vector<std::string>& notes) const;
   double go_on_together(const std::vector<int>& joining, const Modes& held, State& state, std::vector<std::string>& notes) const;
   double collide(double t, const std::vector<double>& momentum, const std::vector<int>& settles, State& state, EventChange& change);
+  void refuse_jams(double t, const ConvexNetwork& problem) const;
   double rebound(double t, const std::vector<int>& hit, const std::vector<int>& settles, State& state) const;
   double turn_trains(double t, State& state, std::vector<std::string>& notes) const;
   /// Returns the impulse of each slider [N s].
