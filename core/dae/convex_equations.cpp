@@ -248,12 +248,13 @@ void ConvexNetwork::classify_equations() {
 
 /// By how much an equation does not hold [m/s]; 0 if that is round-off.
 double ConvexNetwork::torn(const Equation& equation) const {
-  double sum = equation.given, size = std::abs(sum);
+  double sum = equation.given, size = std::abs(sum), values = 0;
   for (std::size_t i = 0; i < equation.node.size(); ++i) {
     sum -= equation.factor[i] * change(equation.node[i]);
     size += std::abs(equation.factor[i] * change(equation.node[i]));
+    values += std::abs(equation.factor[i] * origin_[at(equation.node[i])]);
   }
-  return std::abs(sum) > numerics::torn_velocities * size ? sum : 0;
+  return std::abs(sum) > std::max(numerics::torn_velocities * size, numerics::equal_velocities * values) ? sum : 0;
 }
 
 /// Where sticking branches hold the nodes of an equation that does not hold, those at its nodes open.

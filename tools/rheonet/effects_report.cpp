@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t most_records = 20;
 
-std::string in_words(const std::vector<Effect>& effects) {
+std::string effects_in_words(const std::vector<Effect>& effects) {
   std::vector<std::string> words;
   for (const Effect effect : effects) words.push_back(rheonet::in_words(effect));
   return fmt::format("{}", fmt::join(words, ", "));
@@ -49,7 +49,7 @@ std::string models(const Scene& scene, const ModelHierarchy& ladder, const std::
   }
   std::string text = aligned(rows);
   for (const Rung& rung : rungs) {
-    if (!rung.failure.empty()) text += "  " + wrapped(fmt::format("without {}: {}", in_words(rung.without), rung.failure), 4) + "\n";
+    if (!rung.failure.empty()) text += "  " + wrapped(fmt::format("without {}: {}", effects_in_words(rung.without), rung.failure), 4) + "\n";
   }
   return text;
 }
@@ -92,13 +92,13 @@ std::string recommendation(const Scene& scene, const std::string& file, const Mo
   const Rung* const barest = ladder.barest_within(within);
   if (barest) spare = barest->without;
   std::erase_if(needed, [&](Effect effect) { return std::find(spare.begin(), spare.end(), effect) != spare.end(); });
-  if (!barest) return fmt::format("\nto {:g} % this scene needs all that it has: {}\n", 100 * within, in_words(ladder.effects));
+  if (!barest) return fmt::format("\nto {:g} % this scene needs all that it has: {}\n", 100 * within, effects_in_words(ladder.effects));
   std::vector<std::string> names;
   for (const Effect effect : spare) names.push_back(name_of(effect));
-  const std::string stays = needed.empty() ? "none of its effects" : in_words(needed);
+  const std::string stays = needed.empty() ? "none of its effects" : effects_in_words(needed);
   std::string text = fmt::format("to {:g} % this scene needs {}. Without {} every record stays within {} of the full model, at {:.2f} of its "
                                  "CPU time: rheonet run {} --without {}",
-                                 100 * within, stays, in_words(spare), percent(barest->relative(), scene.accuracy),
+                                 100 * within, stays, effects_in_words(spare), percent(barest->relative(), scene.accuracy),
                                  barest->median_cpu() / ladder.full.median_cpu(), printable(file), fmt::join(names, ","));
   return "\n" + wrapped(text, 2) + "\n";
 }
@@ -107,7 +107,7 @@ std::string recommendation(const Scene& scene, const std::string& file, const Mo
 
 std::string describe(const Scene& scene, const std::string& file, const ModelHierarchy& ladder, double within) {
   if (ladder.effects.empty()) return fmt::format("{}: nothing in it brings an effect that could be left out\n", printable(file));
-  std::string text = fmt::format("{}: {:g} s to {:g} s, with {}\n", printable(file), scene.start, scene.stop, in_words(ladder.effects));
+  std::string text = fmt::format("{}: {:g} s to {:g} s, with {}\n", printable(file), scene.start, scene.stop, effects_in_words(ladder.effects));
   text += "\neach effect left out by itself\n" + models(scene, ladder, ladder.each, false);
   if (ladder.steps.size() > 1)
     text += "\none after the other, those first that matter least\n" + models(scene, ladder, ladder.steps, true);

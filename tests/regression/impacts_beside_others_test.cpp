@@ -1,0 +1,66 @@
+// Impacts at nodes without mass, and impacts that others follow at once.
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include <string>
+
+#include "tests/support/simulate.hpp"
+
+namespace rheonet::test::impacts_beside_others_test {
+
+TEST_CASE("a node without mass that is met takes no momentum, and a mass behind an open freewheel none") {
+  for (const char* method : {"ida", "exact"}) {
+    CAPTURE(method);
+    const RunTable rows = simulate(scene_of(fmt::format(R"([elements]
+base = {{ type = "motion", at = "base", velocity = -0.3 }}
+s8 = {{ type = "stop", between = ["base", "n0"], lower = -0.003, upper = 0.008, stiffness = "inf" }}
+m0 = {{ type = "mass", at = "n0", mass = 2 }}
+f  = {{ type = "force", at = "n0", force = 5 }}
+s9 = {{ type = "stop", between = ["n2", "n0"], lower = -0.006, upper = 0.002, stiffness = "inf" }}
+fr = {{ type = "slider", between = ["n2", "ground"], coulomb = 0.7 }}
+fw = {{ type = "freewheel", between = ["n2", "n1"] }}
+m1 = {{ type = "mass", at = "n1", mass = 2 }}
+[nodes]
+n1 = {{ velocity = -0.395, position = -0.1 }}
+n0 = {{ velocity = -0.3, position = 0.003 }}
+[simulate]
+method = "{}"
+stop = 0.1
+output = {{ points = 11 }}
+record = ["n1.velocity", "n2.velocity", "s8.force", "fw.force"]
+)",
+                                                        method)));
+    for (std::size_t i = 0; i < rows["time"].size(); ++i) {
+      const bool met = rows["time"][i] > 0.005 / 0.3;
+      CHECK(rows["n1.velocity"][i] == -0.395);
+      CHECK(rows["fw.force"][i] == 0);
+      CHECK(std::abs(rows["s8.force"][i] + (met ? 5.7 : 5)) <= 1e-12);
+      if (met) CHECK(std::abs(rows["n2.velocity"][i] + 0.3) <= 1e-14);
+    }
+  }
+}
+
+TEST_CASE("two balls on a plate that is pushed: each landing lets the other one go, until all three move as one") {
+  // Impulses keep the momentum: (9 - 0.5) N s for 3 kg at 3 s. On IDA, as no formula solves the smooth table.
+  for (const double accuracy : {1e-3, 1e-6, 1e-9}) {
+    CAPTURE(accuracy);
+    const RunTable rows = simulate(R"([elements]
+plate = { type = "mass", at = "p", mass = 1 }
+b1    = { type = "mass", at = "b1", mass = 1 }
+b2    = { type = "mass", at = "b2", mass = 1 }
+push  = { type = "force", at = "p", force = { table = [[0, 2], [3, 4]], smooth = true } }
+s1    = { type = "stop", between = ["b1", "p"], lower = 0, stiffness = "inf" }
+s2    = { type = "stop", between = ["b2", "p"], lower = 0, stiffness = "inf" }
+[nodes]
+b1 = { position = 0.1, velocity = -0.5 }
+[simulate]
+stop   = 3
+record = ["p.velocity", "b1.velocity", "b2.velocity", "s1.force", "s2.force"]
+)",
+                                   accuracy);
+    for (const char* node : {"p.velocity", "b1.velocity", "b2.velocity"}) CHECK(std::abs(rows[node].back() - 8.5 / 3) <= 10 * accuracy);
+    for (const char* stop : {"s1.force", "s2.force"}) CHECK(std::abs(std::abs(rows[stop].back()) - 4.0 / 3) <= 10 * accuracy);
+  }
+}
+
+}  // namespace rheonet::test::impacts_beside_others_test
