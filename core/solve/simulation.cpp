@@ -456,7 +456,7 @@ class Run {
       system_->consistency.project(t, y_);
       system_->consistency.derivative(t, y_, yp_);
     }
-    double h = std::min({until - t, numerics::first_step_lookahead * ahead, first_step(ypp, tolerances_.values())});
+    double h = std::min({until - t, numerics::first_step_lookahead * ahead, first_step(ypp, tolerances_.values()), numerics::first_step_of_hop * settling_.turning_time(*system_, t, y_, yp_)});
     // Without unknowns and guards a step has no error.
     if (system_->dae.unknowns() == 0 && !system_->events.sticks() && !system_->events.slips_along()) h = until - t;
     limit_step();
