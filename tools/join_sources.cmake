@@ -1,5 +1,5 @@
 # Sources of one folder are compiled several at a time, because they mostly read the same headers: that takes a third of the
-# time. A file's own names (in `namespace {`) are therefore unique in its folder. -DCMAKE_UNITY_BUILD=OFF compiles each alone.
+# time. A file's own names (in `namespace {`) are therefore unique in its folder, and differ from those in headers. -DCMAKE_UNITY_BUILD=OFF compiles each alone.
 set(CMAKE_UNITY_BUILD ON CACHE BOOL "Compile several sources of a folder at a time")
 set(RHEONET_SOURCES_TOGETHER 100 CACHE STRING "Up to so many sources of a folder are compiled at a time; 24 builds anew faster after a change")
 function(join_sources target)

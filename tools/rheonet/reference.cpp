@@ -192,7 +192,7 @@ std::string code(const std::string& text) {
 }
 
 // Escapes bars, which would end the cell of a table.
-std::string cell(std::string text) {
+std::string reference_cell(std::string text) {
   for (std::size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += 2) text.insert(at, "\\");
   return text;
 }
@@ -276,8 +276,8 @@ std::string as_markdown(const std::vector<const Component*>& components) {
       if (!p.second_of.empty()) continue;
       const Row r = row(p, d);
       text +=
-          fmt::format("| {} | {} | {} | {} | {} | {} | {} |\n", cell(code(r.name)), cell(r.symbol), cell(r.quantity),
-                      cell(code(r.units)), cell(r.bounds), cell(r.fallback), cell(prose(sentence(r.description))));
+          fmt::format("| {} | {} | {} | {} | {} | {} | {} |\n", reference_cell(code(r.name)), reference_cell(r.symbol), reference_cell(r.quantity),
+                      reference_cell(code(r.units)), reference_cell(r.bounds), reference_cell(r.fallback), reference_cell(prose(sentence(r.description))));
     }
   }
   return text;
