@@ -262,8 +262,7 @@ void ConvexNetwork::let_prescribed_part() {
   tear([&](int node) { return is_torn(node); });
 }
 
-template <class Test>
-void ConvexNetwork::tear(const Test& is) {
+void ConvexNetwork::tear(const std::function<bool(int)>& is) {
   for (std::size_t k = 0; k < u_.size(); ++k) {
     if (!is(static_cast<int>(k))) continue;
     torn_.resize(u_.size(), 0);

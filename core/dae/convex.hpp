@@ -145,8 +145,7 @@ class ConvexNetwork {
   bool stick_where_met();
   void stick_where_forbidden();
   void let_prescribed_part();
-  template <class Test>
-  void tear(const Test& is);
+  void tear(const std::function<bool(int)>& is);
   bool is_torn(int node) const;
   bool part_torn();
   bool stick_where_idle();
