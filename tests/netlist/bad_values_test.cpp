@@ -51,6 +51,18 @@ scene.toml:5:64: error: `stiffness`: expected a stiffness (N/m), found a quantit
     5 | k1 = { type = "spring", between = ["a", "ground"], stiffness = "k/m" }
       |                                                                ^
 )~"},
+      {"a force in place of a torque",
+       R"~(
+domain = "rotation"
+[elements]
+b1 = { type = "slider", between = ["a", "ground"], coulomb = "2 kN" }
+)~",
+       R"~(
+scene.toml:3:62: error: `coulomb`: expected a torque (N*m), found a force (N)
+    3 | b1 = { type = "slider", between = ["a", "ground"], coulomb = "2 kN" }
+      |                                                              ^
+  this is of rotation, by `domain` or by another element at its nodes; a force times the radius at which it acts is a torque
+)~"},
       {"a sum of two dimensions",
        R"~(
 [parameters]

@@ -1,6 +1,7 @@
 #include "core/network/free_ends.hpp"
 
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include <cmath>
 #include <string>
@@ -64,6 +65,19 @@ TEST_CASE("what hangs on one node alone moves with it, and carries no force") {
       CHECK_EQ(run["z.position"][i], doctest::Approx(moves * 1.7 / k * (1 - std::cos(w * run.time()[i]))).epsilon(1e-7));
       CHECK_EQ(run["z.velocity"][i], moves * run["m.velocity"][i]);
     }
+  }
+}
+
+TEST_CASE("a node that hangs has the name of a mass, mistyped: the note says which") {
+  for (const char* node : {"loda", "rope"}) {
+    SceneBuilder b;
+    b.at("heavy", "mass", "trolley", {{"mass", 0.31}});
+    b.at("cargo", "mass", "load", {{"mass", 0.31}});
+    b.between("h1", "spring", node, "trolley", {{"stiffness", k}});
+    b.between("h2", "dashpot", node, "trolley", {{"damping", B}});
+    const Network network = build_network(finished(b));
+    REQUIRE_EQ(network.notes.size(), 1);
+    CHECK_EQ(network.notes[0], fmt::format("node `{}` hangs on `trolley` alone and moves with it: `h1`, `h2` carry no force{}", node, std::string(node) == "loda" ? "; did you mean `load`?" : ""));
   }
 }
 
