@@ -371,6 +371,8 @@ ConvexNetwork::Outcome ConvexNetwork::solve() {
       }
       part_torn_equations();
       meet_equations();
+      // An equation may be torn only where others are met.
+      for (std::size_t tries = 0; tries <= branches_.size() && part_torn_equations(); ++tries) meet_equations();
       tear([&](int node) { return fixed_[at(node)] && beside_torn_equation(node); });
     }
     bool settled = balanced(sums) || full_steps_ >= numerics::settled_newton_steps || idle >= numerics::settled_newton_steps;

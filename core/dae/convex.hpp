@@ -131,7 +131,7 @@ class ConvexNetwork {
   void classify_equations();
   void share_with_open_equations(const std::vector<std::size_t>& open, const std::vector<int>& row, const Eigen::VectorXd& load, double roundoff);
   double torn(const Equation& equation) const;
-  void part_torn_equations();
+  bool part_torn_equations();
   bool beside_torn_equation(int node) const;
   void meet_equations();
   /// Argument of the law, from the values of the nodes.

@@ -252,13 +252,13 @@ double ConvexNetwork::torn(const Equation& equation) const {
   for (std::size_t i = 0; i < equation.node.size(); ++i) {
     sum -= equation.factor[i] * change(equation.node[i]);
     size += std::abs(equation.factor[i] * change(equation.node[i]));
-    values += std::abs(equation.factor[i] * origin_[at(equation.node[i])]);
+    if (clusters_.column(equation.node[i]) >= 0) values += std::abs(equation.factor[i] * origin_[at(equation.node[i])]);
   }
   return std::abs(sum) > std::max(numerics::torn_velocities * size, numerics::equal_velocities * values) ? sum : 0;
 }
 
-/// Where sticking branches hold the nodes of an equation that does not hold, those at its nodes open.
-void ConvexNetwork::part_torn_equations() {
+/// Where sticking branches hold the nodes of an equation that does not hold, those at its nodes open. False if there are none.
+bool ConvexNetwork::part_torn_equations() {
   bool any = false;
   const std::vector<char> dependent = dependent_equations();
   for (std::size_t e = 0; e < equations_.size(); ++e) {
@@ -270,9 +270,10 @@ void ConvexNetwork::part_torn_equations() {
       any = true;
     }
   }
-  if (!any) return;
+  if (!any) return false;
   merge();
   stick_where_forbidden();
+  return true;
 }
 
 /// Whether sticking branches join the node to one of an equation that does not hold, and not by the round-off of its velocities.

@@ -39,7 +39,7 @@ std::vector<int> SettlingContacts::find(System& system, const Tolerances& tolera
   return result;
 }
 
-double SettlingContacts::turning_time(System& system, double t, const std::vector<double>& y, const std::vector<double>& yp) {
+double SettlingContacts::turning_time(System& system, double t, const std::vector<double>& y, const std::vector<double>& yp) const {
   double shortest = std::numeric_limits<double>::infinity();
   for (const Network::Slider& slider : system.dae.network().sliders) {
     if (!slider.contact || system.dae.network().contact_of(slider) != 0) continue;
@@ -47,7 +47,7 @@ double SettlingContacts::turning_time(System& system, double t, const std::vecto
     if (view.p[at(slider.gauge)] != 0) continue;  // parted before
     const auto parting = [&](const std::vector<double>& of_nodes) { return of_nodes[at(slider.branch.a)] - of_nodes[at(slider.branch.b)]; };
     const double turns = -parting(view.velocity) / parting(view.acceleration);
-    if (turns > 0) shortest = std::min(shortest, turns);
+    if (2 * turns > numerics::settled_hops * accuracy_ * length_) shortest = std::min(shortest, turns);
   }
   return shortest;
 }

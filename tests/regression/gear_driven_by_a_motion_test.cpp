@@ -60,6 +60,36 @@ TEST_CASE("a gear driven by a motion keeps its ratio beside what lets it go on, 
   }
 }
 
+TEST_CASE("a node that two motions move through gears passes through rest beside friction, freewheels and stops") {
+  struct Case { const char *elements, *node; double start, slope; };
+  for (const Case& one : {
+           Case{R"(ms = { type = "motion", at = "s", velocity = 0.1 }
+mc = { type = "motion", at = "c", velocity = { ramp = 0.1 } }
+pl = { type = "planetary", between = ["s", "c", "p"], ratio = 1 }
+br = { type = "slider", between = ["p", "ground"], coulomb = 0.3 })", "p", -0.1, 0.2},
+           Case{R"(mot = { type = "motion", at = "base", velocity = { table = [[0, 0.3], [1, -0.2]] } }
+g0 = { type = "gear", between = ["n0", "base"], ratio = 1.5 }
+g2 = { type = "gear", between = ["n2", "n0"], ratio = -1 }
+h0 = { type = "slider", between = ["base", "n2"], coulomb = 2 }
+h2 = { type = "slider", between = ["n0", "n2"], coulomb = 2 })", "n2", -0.45, 0.75},
+           Case{R"(mot = { type = "motion", at = "base", velocity = -0.1 }
+mot2 = { type = "motion", at = "base2", velocity = 0.1 }
+pl = { type = "planetary", between = ["base", "base2", "p0"], ratio = 1 }
+g1 = { type = "gear", between = ["n1", "n0"], ratio = 2 }
+g0 = { type = "gear", between = ["p0", "n0"], ratio = 1 }
+h1 = { type = "stop", between = ["p0", "n1"], upper = 0, stiffness = "inf" })", "n1", 0.6, 0},
+           Case{R"(mot = { type = "motion", at = "base", velocity = -0.1 }
+mot2 = { type = "motion", at = "base2", velocity = 0.1 }
+pl = { type = "planetary", between = ["p0", "base", "base2"], ratio = 1 }
+h = { type = "freewheel", between = ["n0", "p0"] }
+g = { type = "gear", between = ["base", "n0"], ratio = 1.5, bearing = 0.3 })", "p0", -0.3, 0}}) {
+    CAPTURE(one.elements);
+    const RunTable rows = simulate(scene_of(fmt::format("domain = \"rotation\"\n[elements]\n{}\n[simulate]\nstop = 1\nrecord = [\"{}.velocity\"]\noutput = {{ points = 9 }}\n", one.elements, one.node)));
+    const std::vector<double>& v = rows[fmt::format("{}.velocity", one.node)];
+    for (std::size_t i = 1; i < v.size(); ++i) CHECK(std::abs(v[i] - one.start - one.slope * rows["time"][i]) <= 1e-14);
+  }
+}
+
 TEST_CASE("a lever with losses that a motion drives into a rigid stop is jammed there") {
   for (const char* losses : {"", ", bearing = 0.6"}) {
     const std::string text = fmt::format(R"([elements]
