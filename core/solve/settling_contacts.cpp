@@ -1,6 +1,7 @@
 #include "core/solve/settling_contacts.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -39,15 +40,16 @@ std::vector<int> SettlingContacts::find(System& system, const Tolerances& tolera
   return result;
 }
 
-double SettlingContacts::turning_time(System& system, double t, const std::vector<double>& y, const std::vector<double>& yp) const {
+double SettlingContacts::turning_time(System& system, double t, const std::vector<double>& y, const std::vector<double>& yp) {
   double shortest = std::numeric_limits<double>::infinity();
   for (const Network::Slider& slider : system.dae.network().sliders) {
     if (!slider.contact || system.dae.network().contact_of(slider) != 0) continue;
     const Dae::View& view = system.dae.view_again(t, y.data(), yp.data());
     if (view.p[at(slider.gauge)] != 0) continue;  // parted before
     const auto parting = [&](const std::vector<double>& of_nodes) { return of_nodes[at(slider.branch.a)] - of_nodes[at(slider.branch.b)]; };
-    const double turns = -parting(view.velocity) / parting(view.acceleration);
-    if (2 * turns > numerics::settled_hops * accuracy_ * length_) shortest = std::min(shortest, turns);
+    const double w = parting(view.velocity), turns = -w / parting(view.acceleration);
+    const double roundoff = numerics::equal_values * (std::abs(view.velocity[at(slider.branch.a)]) + std::abs(view.velocity[at(slider.branch.b)]));
+    if (std::abs(w) > roundoff && turns > 0) shortest = std::min(shortest, turns);
   }
   return shortest;
 }

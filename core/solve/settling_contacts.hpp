@@ -21,9 +21,9 @@ class SettlingContacts {
   /// Sliders with a gauge.
   std::vector<int> find(System& system, const Tolerances& tolerances, double t, const std::vector<double>& y, const std::vector<double>& yp);
 
-  /// The shortest time in which ends that have just parted turn back, if their acceleration stays [s]; infinite if none does. Hops that would be
-  /// too short to matter do not count.
-  double turning_time(System& system, double t, const std::vector<double>& y, const std::vector<double>& yp) const;
+  /// The shortest time in which ends that have just parted turn back, if their acceleration stays [s]; infinite if none does. Velocities of
+  /// round-off do not count.
+  static double turning_time(System& system, double t, const std::vector<double>& y, const std::vector<double>& yp);
 
  private:
   struct Impact {
