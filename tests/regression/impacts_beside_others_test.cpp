@@ -63,4 +63,23 @@ record = ["p.velocity", "b1.velocity", "b2.velocity", "s1.force", "s2.force"]
   }
 }
 
+TEST_CASE("a touching body that starts a rounding too slow is pulled away") {
+  for (const double start : {0.3, 0.29999999999999993, 0.3 - 1e-13}) {
+    const RunTable rows = simulate(scene_of(fmt::format(R"([elements]
+m0 = {{ type = "mass", at = "n0", mass = 2 }}
+m2 = {{ type = "mass", at = "n2", mass = 0.5 }}
+s2 = {{ type = "stop", between = ["n2", "n0"], lower = 0, stiffness = "inf" }}
+f2 = {{ type = "force", at = "n2", force = 2 }}
+[nodes]
+n0 = {{ velocity = 0.3 }}
+n2 = {{ velocity = {:.17g} }}
+[simulate]
+method = "ida"
+stop = 0.8
+)",
+                                                        start)));
+    CHECK(std::abs(rows["n2.velocity"].back() - 3.5) <= 1e-8);
+  }
+}
+
 }  // namespace rheonet::test::impacts_beside_others_test
