@@ -24,12 +24,6 @@ void ConvexNetwork::fix(int node, double change) {
   u_[at(node)] = given_[at(node)] = change;
 }
 
-bool ConvexNetwork::is_torn(int node) const {
-  const double given = origin_[at(node)] + given_[at(node)], is = value(node);
-  const double size = std::abs(origin_[at(node)]) + std::abs(given_[at(node)]) + std::abs(is);
-  return fixed_[at(node)] && std::abs(is - given) > numerics::torn_velocities * size;
-}
-
 // Round-off must not separate nodes that are together, or were until a branch released them: a massless node takes both numbers
 // (base and u) of the node that it follows.
 void ConvexNetwork::follow(int node, int head) {
@@ -167,7 +161,7 @@ void ConvexNetwork::stick_at_first() {
   };
   for (Branch* b : order) {
     const double w = apart(*b);
-    if (w != 0 && !b->forbids(w) && heavy[at(sets.find(b->a))] && heavy[at(sets.find(b->b))]) {
+    if (w != 0 && !b->law.forbids(w) && heavy[at(sets.find(b->a))] && heavy[at(sets.find(b->b))]) {
       b->side = w > 0 ? 1 : -1;
     } else {
       stick(*b);
@@ -178,7 +172,7 @@ void ConvexNetwork::stick_at_first() {
     again = false;
     for (Branch* b : order) {
       const double w = b->stuck ? 0 : apart(*b);
-      if (w == 0 || !b->forbids(w)) continue;
+      if (w == 0 || !b->law.forbids(w)) continue;
       stick(*b);
       again = true;
     }
@@ -198,87 +192,6 @@ void ConvexNetwork::merge() {
   for (Branch& b : branches_) {
     if (clusters_.joined(b.a, b.b)) b.w = nodal_difference(b);
   }
-}
-
-/// Where sticking branches join prescribed nodes that go apart, one of them opens: the first on the way from one node to the other
-/// whose law permits that motion. False if there is none.
-bool ConvexNetwork::part_torn() {
-  const std::size_t n = u_.size();
-  const auto given = [&](std::size_t node) { return origin_[node] + given_[node]; };
-  std::vector<std::vector<std::size_t>> around(n);
-  for (std::size_t k = 0; k < branches_.size(); ++k) {
-    if (!branches_[k].stuck) continue;
-    around[at(branches_[k].a)].push_back(k);
-    around[at(branches_[k].b)].push_back(k);
-  }
-  for (std::size_t node = 0; node < n; ++node) {
-    if (!is_torn(static_cast<int>(node))) continue;
-    constexpr std::size_t none = static_cast<std::size_t>(-1);
-    std::vector<std::size_t> by(n, none), reached{node};
-    for (std::size_t i = 0; i < reached.size(); ++i) {
-      const std::size_t from = reached[i];
-      if (fixed_[from] && !is_torn(static_cast<int>(from))) {
-        for (std::size_t here = from; here != node;) {
-          Branch& b = branches_[by[here]];
-          const bool first = at(b.a) == here;
-          const double w = first ? given(from) - given(node) : given(node) - given(from);
-          if (!b.forbids(w)) {
-            b.stuck = false;
-            b.side = w > 0 ? 1 : -1;
-            u_[node] = given_[node];
-            return true;
-          }
-          here = at(first ? b.b : b.a);
-        }
-      }
-      for (const std::size_t k : around[from]) {
-        const std::size_t next = at(branches_[k].a) == from ? at(branches_[k].b) : at(branches_[k].a);
-        if (next == node || by[next] != none) continue;
-        by[next] = k;
-        reached.push_back(next);
-      }
-    }
-  }
-  return false;
-}
-
-/// Branches whose ends go as their laws forbid stick.
-void ConvexNetwork::stick_where_forbidden() {
-  for (Branch& b : branches_) {
-    if (b.stuck || !b.jumps) continue;
-    b.w = nodal_difference(b);
-    if (b.w != 0 && b.forbids(b.w)) b.stuck = true;
-  }
-  merge();
-}
-
-/// Lets branches open until no prescribed nodes are torn from each other, as far as the laws permit. A branch that would then move
-/// as its law forbids sticks. Nodes that are torn then stay torn.
-void ConvexNetwork::let_prescribed_part() {
-  for (std::size_t tries = 0; tries <= 2 * branches_.size() && part_torn(); ++tries) {
-    merge();
-    stick_where_forbidden();
-  }
-  tear([&](int node) { return is_torn(node); });
-}
-
-void ConvexNetwork::tear(const std::function<bool(int)>& is) {
-  for (std::size_t k = 0; k < u_.size(); ++k) {
-    if (!is(static_cast<int>(k))) continue;
-    torn_.resize(u_.size(), 0);
-    torn_[k] = 1;
-  }
-  if (torn_.empty()) return;
-  DisjointSets together(u_.size());
-  for (const Branch& b : branches_) {
-    if (b.stuck) together.join(b.a, b.b);
-  }
-  for (const Equation& e : equations_) {
-    if (torn(e) == 0) continue;
-    for (const int node : e.node) together.join(node, e.node[0]);
-  }
-  torn_clusters_ = NodeClusters(static_cast<int>(u_.size()));
-  torn_clusters_.merge(together, [](std::size_t) { return 0.0; });
 }
 
 /// Sums the forces at all free clusters; true if the sums are round-off.
@@ -369,11 +282,7 @@ ConvexNetwork::Outcome ConvexNetwork::solve() {
         const double w = nodal_difference(b);
         if (std::abs(w - b.w) > difference_rounding * (std::abs(base_[at(b.a)]) + std::abs(base_[at(b.b)]))) b.w = w;
       }
-      part_torn_equations();
-      meet_equations();
-      // An equation may be torn only where others are met.
-      for (std::size_t tries = 0; tries <= branches_.size() && part_torn_equations(); ++tries) meet_equations();
-      tear([&](int node) { return fixed_[at(node)] && beside_torn_equation(node); });
+      open_for_equations();
     }
     bool settled = balanced(sums) || full_steps_ >= numerics::settled_newton_steps || idle >= numerics::settled_newton_steps;
     if (!settled) {

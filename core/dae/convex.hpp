@@ -33,6 +33,9 @@ class ConvexNetwork {
     bool inertial = false;             ///< It holds its ends together as the inertia of a node holds this node.
     /// If set: force and slope for w != 0, in place of low + backward w and high + forward w.
     std::function<double(double w, double& slope)> beyond = {};
+
+    /// A force without a bound holds the ends together, or ends a motion to the side of w that the law forbids.
+    bool forbids(double w) const { return std::isinf(w < 0 ? low : high); }
   };
 
   explicit ConvexNetwork(int nodes);
@@ -109,8 +112,6 @@ class ConvexNetwork {
     /// Force and slope at w; at w = 0 those beside that side of it, or beside `side`.
     double force(double w, int of_side) const;
     double slope(double w) const;
-    /// A force without a bound holds the branch, or ends a motion to the side of w that its law forbids.
-    bool forbids(double w) const { return std::isinf(w < 0 ? law.low : law.high); }
   };
   struct Equation {
     std::array<int, 3> node;
@@ -133,6 +134,7 @@ class ConvexNetwork {
   double torn(const Equation& equation) const;
   bool part_torn_equations();
   bool beside_torn_equation(int node) const;
+  void open_for_equations();
   void meet_equations();
   /// Argument of the law, from the values of the nodes.
   double nodal_difference(const Branch& b) const {

@@ -246,49 +246,6 @@ void ConvexNetwork::classify_equations() {
   }
 }
 
-/// By how much an equation does not hold [m/s]; 0 if that is round-off.
-double ConvexNetwork::torn(const Equation& equation) const {
-  double sum = equation.given, size = std::abs(sum), values = 0;
-  for (std::size_t i = 0; i < equation.node.size(); ++i) {
-    sum -= equation.factor[i] * change(equation.node[i]);
-    size += std::abs(equation.factor[i] * change(equation.node[i]));
-    if (clusters_.column(equation.node[i]) >= 0) values += std::abs(equation.factor[i] * origin_[at(equation.node[i])]);
-  }
-  return std::abs(sum) > std::max(numerics::torn_velocities * size, numerics::equal_velocities * values) ? sum : 0;
-}
-
-/// Where sticking branches hold the nodes of an equation that does not hold, those at its nodes open. False if there are none.
-bool ConvexNetwork::part_torn_equations() {
-  bool any = false;
-  const std::vector<char> dependent = dependent_equations();
-  for (std::size_t e = 0; e < equations_.size(); ++e) {
-    if (!dependent[e] || torn(equations_[e]) == 0) continue;
-    for (Branch& b : branches_) {
-      const auto beside = [&](int node) { return clusters_.joined(node, b.a); };
-      if (!b.stuck || (std::isinf(b.law.low) && std::isinf(b.law.high)) || std::none_of(equations_[e].node.begin(), equations_[e].node.end(), beside)) continue;
-      b.stuck = false;
-      any = true;
-    }
-  }
-  if (!any) return false;
-  merge();
-  stick_where_forbidden();
-  return true;
-}
-
-/// Whether sticking branches join the node to one of an equation that does not hold, and not by the round-off of its velocities.
-bool ConvexNetwork::beside_torn_equation(int node) const {
-  return std::any_of(equations_.begin(), equations_.end(), [&](const Equation& e) {
-    double size = 0;
-    bool beside = false;
-    for (std::size_t i = 0; i < e.node.size(); ++i) {
-      size += std::abs(e.factor[i] * origin_[at(e.node[i])]);
-      beside = beside || clusters_.joined(node, e.node[i]);
-    }
-    return beside && std::abs(torn(e)) > numerics::torn_velocities * size;
-  });
-}
-
 /// Brings the start values to where the equations hold, by the least change that the inertias allow. Later steps keep them.
 /// Branches that would thereby move as their laws forbid stick.
 void ConvexNetwork::meet_equations() {
@@ -303,7 +260,7 @@ void ConvexNetwork::meet_equations() {
     for (Equation& e : equations_) e.force = 0;
     for (Branch& b : branches_) {
       b.w = nodal_difference(b);
-      if (b.stuck || b.w == 0 || !b.forbids(b.w)) continue;
+      if (b.stuck || b.w == 0 || !b.law.forbids(b.w)) continue;
       again = b.stuck = true;
     }
     if (again) merge();

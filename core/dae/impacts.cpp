@@ -73,9 +73,6 @@ std::vector<int> moving_backwards(const EventNetwork& net, const State& state) {
   return result;
 }
 
-/// Whether the law lets its ends not move so.
-bool forbids(const ConvexNetwork::Law& law, double w) { return (w < 0 && std::isinf(law.low)) || (w > 0 && std::isinf(law.high)); }
-
 }  // namespace
 
 void Impacts::resolve(double t, const std::vector<double>& momentum, const FiredGuards& fired, const Modes& modes, State& state,
@@ -119,19 +116,7 @@ double Impacts::collide(double t, const std::vector<double>& momentum, const std
   const auto in_contact = [&](int k) { return network_.sliders[at(k)].contact.has_value(); };
   std::copy_if(backwards.begin(), backwards.end(), std::back_inserter(hit_), in_contact);
   std::erase_if(backwards, in_contact);
-  // Thrown back, or left behind by what another impact takes away, they are apart, however short the hop is: mode selection looks further ahead.
-  const std::vector<double> w = slider_velocities(net_, state);
-  for (std::size_t k = 0; k < w.size(); ++k) {
-    const Network::Slider& slider = network_.sliders[k];
-    const auto& [element, a, b] = slider.branch;
-    const int side = slider.contact ? network_.contact_of(slider) : 0;
-    const bool hit = contains(hit_, static_cast<int>(k));
-    const double roundoff = hit ? 0 : numerics::equal_energies * (std::abs(net_.velocity(a, state)) + std::abs(net_.velocity(b, state)));
-    if (hit_.empty() || (hit ? slider.contact->restitution == 0 : net_.massless(a) || net_.massless(b)) || contains(settles, static_cast<int>(k)) || !(-side * w[k] > roundoff)) continue;
-    count_from_contact(network_, slider, state);
-    open_contact(network_, slider);
-    if (hit) change.impacts.push_back({element, -side});
-  }
+  if (!hit_.empty()) open_parted(settles, state, change);
   // A freewheel that ceases to run ahead has the round-off of its event as its velocity: no impact.
   const bool impact = lost > numerics::equal_energies * largest_kinetic_;
   if (t == 0 && impact && !hit_.empty()) {
@@ -144,6 +129,25 @@ double Impacts::collide(double t, const std::vector<double>& momentum, const std
                               names.size() > 1 ? "their" : "its",
                               impact ? fmt::format(", which turns {:.6g} J into heat{}", lost, t > 0 ? "" : ", before the energy account begins") : ""));
   return turned + lost;
+}
+
+/// Contacts whose ends an impact has thrown back, or left behind by what it took from a third body, are apart, however short the hop is:
+/// mode selection looks further ahead.
+void Impacts::open_parted(const std::vector<int>& settles, State& state, EventChange& change) const {
+  const std::vector<double> w = slider_velocities(net_, state);
+  for (std::size_t k = 0; k < w.size(); ++k) {
+    const Network::Slider& slider = network_.sliders[k];
+    const auto& [element, a, b] = slider.branch;
+    const int side = slider.contact ? network_.contact_of(slider) : 0;
+    if (side == 0 || contains(settles, static_cast<int>(k))) continue;
+    const bool hit = contains(hit_, static_cast<int>(k));
+    const bool stays = hit ? slider.contact->restitution == 0 : net_.massless(a) || net_.massless(b);
+    const double roundoff = hit ? 0 : numerics::equal_energies * (std::abs(net_.velocity(a, state)) + std::abs(net_.velocity(b, state)));
+    if (stays || !(-side * w[k] > roundoff)) continue;
+    count_from_contact(network_, slider, state);
+    open_contact(network_, slider);
+    if (hit) change.impacts.push_back({element, -side});
+  }
 }
 
 /// An impact, in two phases (S. D. Poisson 1838). First all contacts take the impulses that end the motions they forbid: a plastic
@@ -234,7 +238,7 @@ std::vector<double> Impacts::share_impulses(double t, const std::vector<double>&
     laws.push_back({.low = -impulse(inputs_.box(k).backward), .high = impulse(inputs_.box(k).forward)});
     if (held && held->slider[k] == Modes::stuck) laws.back() = {.low = -unlimited, .high = unlimited};
     const double w = before[at(a)] - before[at(b)];
-    parts.push_back(w != 0 && !forbids(laws.back(), w));
+    parts.push_back(w != 0 && !laws.back().forbids(w));
   }
   std::vector<int> branch;
   const auto pose = [&] {
@@ -272,7 +276,8 @@ std::vector<double> Impacts::share_impulses(double t, const std::vector<double>&
     again = false;
     for (std::size_t k = 0; k < laws.size(); ++k) {
       const auto& [element, a, b] = network_.sliders[k].branch;
-      if (!parts[k] || !forbids(laws[k], problem.difference(net_.slot(a), net_.slot(b)))) continue;
+      const double w = problem.difference(net_.slot(a), net_.slot(b));
+      if (!parts[k] || w == 0 || !laws[k].forbids(w)) continue;
       parts[k] = 0;
       again = true;
     }

@@ -25,6 +25,7 @@ class Impacts {
   double go_on_together(const std::vector<int>& joining, const Modes& held, State& state, std::vector<std::string>& notes) const;
   double collide(double t, const std::vector<double>& momentum, const std::vector<int>& settles, State& state, EventChange& change);
   void refuse_jams(double t, const ConvexNetwork& problem) const;
+  void open_parted(const std::vector<int>& settles, State& state, EventChange& change) const;
   double rebound(double t, const std::vector<int>& hit, const std::vector<int>& settles, State& state) const;
   double turn_trains(double t, State& state, std::vector<std::string>& notes) const;
   /// Returns the impulse of each slider [N s].

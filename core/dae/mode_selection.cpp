@@ -162,7 +162,6 @@ LookAhead ModeSelection::look_ahead(const EventState& event, double h) const {
   for (TrainForceTrials& trials : TrainForceTrials::around(net_.network, net_.inputs, forces)) {
     if (auto found = follow(std::move(trials))) return *std::move(found);
   }
-  refuse_blocked_motions(net_, event.t, LookAhead(event, h, {}).problem());
   report_losses(net_.network, at_time(*net_.network.scene, event.t));
 }
 

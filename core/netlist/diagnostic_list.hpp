@@ -69,6 +69,9 @@ bool comes_before(const Spot& a, const Spot& b);
 /// "`a`, `b` or `c`": a list of names in a message.
 std::string list_names(const std::vector<std::string>& names, std::string_view last_word = "or");
 
+/// Up to this many names may be mistyped; more of them are intended, and no other name is looked for.
+constexpr std::ptrdiff_t most_mistyped = 20;
+
 /// "did you mean `name`?" with the nearest known name, or `otherwise` if none is near.
 std::string did_you_mean(std::string_view word, const std::vector<std::string>& known, std::string otherwise = {});
 

@@ -11,9 +11,6 @@ namespace rheonet {
 
 namespace {
 
-// Up to this many loose nodes may be mistyped names; more of them are intended.
-constexpr std::ptrdiff_t most_mistyped = 20;
-
 bool is_ground_in_capitals(const std::string& name) {
   const std::string_view wanted = "ground";
   return name != wanted && std::equal(name.begin(), name.end(), wanted.begin(), wanted.end(), [](char a, char b) {

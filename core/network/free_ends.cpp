@@ -208,7 +208,8 @@ std::vector<std::string> tell_free_ends(const Scene& scene, const FreeEnds& ends
     if (ends.on[n] != static_cast<NodeId>(n)) hanging[ends.on[n]].nodes.push_back(scene.nodes[n].name);
   }
   for (const int e : ends.elements) hanging[ends.on[at(scene.elements[at(e)].a)]].elements.push_back(scene.elements[at(e)].name);
-  const std::vector<std::string> lone = lone_nodes(scene);
+  const bool mistyped = !hanging.empty() && static_cast<std::ptrdiff_t>(hanging.size()) <= most_mistyped;
+  const std::vector<std::string> lone = mistyped ? lone_nodes(scene) : std::vector<std::string>();
   std::vector<std::string> words;
   for (const auto& [node, what] : hanging) {
     if (what.elements.size() < 2) continue;
