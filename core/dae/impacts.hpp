@@ -21,6 +21,7 @@ class Impacts {
   void open_contacts(const Modes& modes, State& state, EventChange& change) const;
 
  private:
+  std::vector<int> closed_but_for_roundoff(const std::vector<int>& settles, const State& state) const;
   double halt(double t, const std::vector<int>& events, const Modes& modes, State& state, std::vector<std::string>& notes) const;
   double go_on_together(const std::vector<int>& joining, const Modes& held, State& state, std::vector<std::string>& notes) const;
   double collide(double t, const std::vector<double>& momentum, const std::vector<int>& settles, State& state, EventChange& change);
