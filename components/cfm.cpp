@@ -171,11 +171,11 @@ const RegisterComponent register_cfm({
             .ports = Declaration::Ports::between,
             .parameters =
                 {
-                    {.name = "stiffness", .quantity = Quantity::stiffness, .lower_open = false, .may_be_infinite = true, .may_vary = true, .from_block = true, .symbol = "sigma",
+                    {.name = "stiffness", .quantity = Quantity::stiffness, .lower_open = false, .may_be_infinite = true, .may_vary = true, .from_block = true, .symbol = "sigma", .other_names = {"k"},
                      .description = "slope df/dd at f = 0 (rest stiffness); 0 means no force"},
                     {.name = "coulomb", .quantity = Quantity::force, .lower_open = false, .may_be_infinite = true, .may_vary = true, .from_block = true, .symbol = "Fc",
                      .description = "largest force, reached above the velocity Fc/B; 0 means no force"},
-                    {.name = "damping", .quantity = Quantity::damping, .lower_open = false, .may_be_infinite = true, .may_vary = true, .from_block = true, .symbol = "B",
+                    {.name = "damping", .quantity = Quantity::damping, .lower_open = false, .may_be_infinite = true, .may_vary = true, .from_block = true, .symbol = "B", .other_names = {"c", "d"},
                      .description = "force per velocity in slow steady motion; 0 means no force"},
                     {.name = "exponent", .quantity = Quantity::number, .fallback = 1.0, .lower = 0, .lower_open = false,
                      .upper = 100, .symbol = "i", .description = "shape of the loop, as for `sfm`"},

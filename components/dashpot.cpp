@@ -64,7 +64,7 @@ const RegisterComponent register_dashpot({
             .parameters =
                 {
                     {.name = "damping", .quantity = Quantity::damping, .lower_open = false, .may_be_infinite = true,
-                     .flow_index = "flow_index", .may_vary = true, .from_block = true, .symbol = "B",
+                     .flow_index = "flow_index", .may_vary = true, .from_block = true, .symbol = "B", .other_names = {"c", "d", "viscosity"},
                      .description = "force at unit velocity (the consistency); 0 means no dashpot, inf a rigid link"},
                     {.name = "flow_index", .quantity = Quantity::number, .fallback = 1.0, .lower = 0.05, .lower_open = false,
                      .upper = 20, .symbol = "n",

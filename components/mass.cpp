@@ -13,7 +13,7 @@ const RegisterComponent register_mass({
             .rotational_type = "inertia",
             .ports = Declaration::Ports::at,
             .parameters = {{.name = "mass", .quantity = Quantity::mass, .lower_open = false, .rotational_name = "inertia",
-                            .symbol = "m", .description = "inertia of the node; several masses at one node add up; 0 means none"}},
+                            .symbol = "m", .other_names = {"J"}, .description = "inertia of the node; several masses at one node add up; 0 means none"}},
             .effects = {{Effect::inertia, "mass", 0}},
             .summary = "inertia of a node",
             .law = "f = m dv/dt",

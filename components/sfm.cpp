@@ -72,7 +72,7 @@ const RegisterComponent register_sfm({
             .ports = Declaration::Ports::between,
             .parameters =
                 {
-                    {.name = "stiffness", .quantity = Quantity::stiffness, .lower_open = false, .may_be_infinite = true, .may_vary = true, .from_block = true, .symbol = "sigma",
+                    {.name = "stiffness", .quantity = Quantity::stiffness, .lower_open = false, .may_be_infinite = true, .may_vary = true, .from_block = true, .symbol = "sigma", .other_names = {"k", "sigma0"},
                      .description = "slope df/dd at f = 0 (rest stiffness of the bristles); 0 means no force"},
                     {.name = "coulomb", .quantity = Quantity::force, .lower_open = false, .may_be_infinite = true, .may_vary = true, .from_block = true, .symbol = "Fc",
                      .description = "force of steady sliding; 0 means no force"},

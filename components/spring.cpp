@@ -43,10 +43,10 @@ const RegisterComponent register_spring({
             .ports = Declaration::Ports::between,
             .parameters =
                 {
-                    {.name = "stiffness", .quantity = Quantity::stiffness, .lower_open = false, .may_be_infinite = true, .may_vary = true, .from_block = true, .symbol = "k",
+                    {.name = "stiffness", .quantity = Quantity::stiffness, .lower_open = false, .may_be_infinite = true, .may_vary = true, .from_block = true, .symbol = "k", .other_names = {"rate", "c"},
                      .description = "force per displacement; 0 means no spring, inf a rigid link"},
                     {.name = "rest", .quantity = Quantity::position, .fallback = 0.0,
-                     .lower = -std::numeric_limits<double>::infinity(), .symbol = "d0",
+                     .lower = -std::numeric_limits<double>::infinity(), .symbol = "d0", .other_names = {"length", "s_rel0"},
                      .description = "displacement at which the spring is free of force"},
                     {.name = "f0", .quantity = Quantity::force, .kind = Parameter::Kind::initial,
                      .lower = -std::numeric_limits<double>::infinity(), .symbol = "f0",

@@ -180,7 +180,7 @@ const RegisterComponent register_stop({
                      .description = "largest displacement without contact; absent: no stop on this side"},
                     {.name = "stiffness", .quantity = Quantity::stiffness, .lower_open = false, .may_be_infinite = true, .may_vary = true, .from_block = true, .symbol = "k",
                      .description = "force per displacement beyond a bound; 0 means no stop, inf a rigid one"},
-                    {.name = "damping", .quantity = Quantity::damping, .fallback = 0.0, .lower_open = false, .may_vary = true, .from_block = true, .symbol = "c",
+                    {.name = "damping", .quantity = Quantity::damping, .fallback = 0.0, .lower_open = false, .may_vary = true, .from_block = true, .symbol = "c", .other_names = {"d"},
                      .description = "damping of the contact; its force is at most that of the spring, so that the contact never pulls"},
                     {.name = "restitution", .fallback = 0.0, .lower_open = false, .upper = 1, .symbol = "e",
                      .description = "of a rigid stop: velocity after an impact over that before it; 0: plastic, 1: elastic"},

@@ -64,9 +64,9 @@ const RegisterComponent register_vfm({
             .ports = Declaration::Ports::between,
             .parameters =
                 {
-                    {.name = "damping", .quantity = Quantity::damping, .lower_open = false, .may_be_infinite = true, .may_vary = true, .from_block = true, .symbol = "B",
+                    {.name = "damping", .quantity = Quantity::damping, .lower_open = false, .may_be_infinite = true, .may_vary = true, .from_block = true, .symbol = "B", .other_names = {"c", "d"},
                      .description = "force per velocity in steady motion; 0 means no force"},
-                    {.name = "stiffness", .quantity = Quantity::stiffness, .lower_open = false, .may_be_infinite = true, .may_vary = true, .from_block = true, .symbol = "sigma",
+                    {.name = "stiffness", .quantity = Quantity::stiffness, .lower_open = false, .may_be_infinite = true, .may_vary = true, .from_block = true, .symbol = "sigma", .other_names = {"k"},
                      .description = "force per displacement just after a reversal (rest stiffness); 0 means no force"},
                     {.name = "delay", .quantity = Quantity::time, .fallback = 0.0, .lower_open = false, .symbol = "TD",
                      .description = "transport delay of the velocity"},

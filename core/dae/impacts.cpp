@@ -78,11 +78,19 @@ std::vector<int> moving_backwards(const EventNetwork& net, const State& state) {
 void Impacts::resolve(double t, const std::vector<double>& momentum, const FiredGuards& fired, const Modes& modes, State& state,
                       EventChange& change) {
   // At the start, nodes that rigid links join need not have one velocity.
-  if (!started_) change.heat += halt(t, {}, modes, state, change.notes);
+  const bool start = !started_;
+  if (start) change.heat += halt(t, {}, modes, state, change.notes);
+  const std::vector<double> before = start ? std::vector<double>(network_.sliders.size(), 0) : slider_velocities(net_, state);
   change.heat += collide(t, momentum, fired.settles, state, change);
   std::vector<int> together = fired.sliders;
   std::ranges::copy(closed_but_for_roundoff(fired.settles, state), std::back_inserter(together));
-  change.heat += halt(t, together, modes, state, change.notes);
+  Modes held = modes;
+  const std::vector<double> after = slider_velocities(net_, state);
+  for (const double v : state.velocity) largest_speed_ = std::max(largest_speed_, std::abs(v));
+  for (std::size_t k = 0; k < after.size(); ++k) {
+    if (std::abs(after[k] - before[k]) > numerics::equal_energies * largest_speed_) held.slider[k] = Modes::forward;  // an impact has set it in motion
+  }
+  change.heat += halt(t, together, held, state, change.notes);
 }
 
 /// Contacts whose ends approach too slowly for an impact, or part by the round-off of an impact that gives nothing back. With this velocity,

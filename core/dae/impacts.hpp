@@ -40,6 +40,7 @@ class Impacts {
   bool started_ = false;       ///< The impulses of the start have been resolved.
   std::vector<int> hit_;       ///< Sliders in contact whose ends moved towards each other at this event.
   double largest_kinetic_ = 0; ///< At events so far [J].
+  double largest_speed_ = 0;   ///< Of nodes, at events so far [m/s].
 };
 
 }  // namespace rheonet

@@ -8,6 +8,7 @@
 #include "core/base/disjoint_sets.hpp"
 #include "core/base/index.hpp"
 #include "core/base/numerics.hpp"
+#include "core/dae/contacts.hpp"
 
 namespace rheonet {
 
@@ -17,6 +18,8 @@ void StepErrors::accept(const Branch& branch, double imbalance) {
 
 void StepErrors::take_back_excess(const Modes& modes, std::vector<double>& force) {
   for (std::size_t k = 0; k < force.size(); ++k) {
+    // An impact has opened it: its force is over, and no error.
+    if (apart(net_.network, net_.network.sliders[k])) force[k] = 0;
     const int side = force[k] > 0 ? 1 : -1;
     const double most = bounds_.bound(k, side), excess = std::abs(force[k]) - most;
     if (modes.slider[k] != Modes::stuck || !(excess > 0)) continue;

@@ -61,6 +61,7 @@ struct Parameter {
   bool from_block = false;            ///< For a signal: the output of a block may be given instead.
   std::string rotational_name = {};   ///< Name in a rotational scene, if different (`inertia` for `mass`).
   std::string symbol = {};            ///< As in the law.
+  std::vector<std::string> other_names = {};  ///< Names of the parameter elsewhere, beside its symbol, for messages: `static`.
   std::string description = {};
 
   const std::string& name_in(Domain domain) const {

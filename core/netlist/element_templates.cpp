@@ -82,6 +82,17 @@ const TomlEntry* find_kind(const TomlValue& source, Spot spot, const std::string
   return kind;
 }
 
+/// The parameter that has this name elsewhere, or else this symbol in its law; "" if none.
+std::string parameter_called(const Declaration& declaration, std::string_view name, Domain domain) {
+  for (const Parameter& p : declaration.parameters) {
+    if (std::ranges::find(p.other_names, name) != p.other_names.end()) return p.name_in(domain);
+  }
+  for (const Parameter& p : declaration.parameters) {
+    if (p.symbol == name) return p.name_in(domain);
+  }
+  return "";
+}
+
 /// Reports a parameter given by its name in the other domain: "unknown key" would help less. True if there is one.
 bool refuse_other_names(const Parameter& parameter, const std::string& name, bool in_model, Domain domain, TableReader& reader,
                         DiagnosticList& diagnostics) {
@@ -218,7 +229,7 @@ ElementTemplate TemplateReader::read_entry(std::string name, Spot spot, const To
       else
         read_instance(plan, *model->second, scope, reader);
       read_repeat(plan, reader);
-      reader.finish(diagnostics);
+      reader.finish(diagnostics, [&](std::string_view key) { return declaration ? parameter_called(*declaration, key, plan.domain.value_or(context_.domain)) : ""; });
     } else if (context_.models_missing) {
       return plan;  // the type may be a model of that file
     } else {
@@ -346,7 +357,11 @@ void TemplateReader::read_element(ElementTemplate& plan, const TomlEntry& type, 
     const TomlEntry* other = one ? plan.source->find(parameter.not_with) : nullptr;
     if (other) refuse_both(*other, *one, article(type.value.text), diagnostics);
   }
-  if (!declaration.one_of.empty() && given.empty()) {
+  const auto misnamed = [&](const TomlEntry& entry) {
+    const std::string called = parameter_called(declaration, entry.key, domain);
+    return std::ranges::any_of(declaration.one_of, [&](const std::string& name) { return find_parameter(declaration, name)->name_in(domain) == called; });
+  };
+  if (!declaration.one_of.empty() && given.empty() && std::ranges::none_of(plan.source->entries, misnamed)) {
     std::vector<std::string> names;
     for (const std::string& name : declaration.one_of)
       if (const Parameter* p = find_parameter(declaration, name)) names.push_back(p->name_in(domain));

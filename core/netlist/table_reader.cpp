@@ -53,7 +53,7 @@ const TomlEntry* TableReader::require(std::string_view key, Spot where, std::str
   return entry;
 }
 
-void TableReader::finish(DiagnosticList& diagnostics) const {
+void TableReader::finish(DiagnosticList& diagnostics, const std::function<std::string(std::string_view)>& key_called) const {
   const auto asked_for = [&](const TomlEntry& entry) {
     return std::find(known_.begin(), known_.end(), entry.key) != known_.end() || std::find(silent_.begin(), silent_.end(), entry.key) != silent_.end();
   };
@@ -64,8 +64,10 @@ void TableReader::finish(DiagnosticList& diagnostics) const {
     if (std::find(known.begin(), known.end(), key) == known.end()) known.emplace_back(key);
   for (const TomlEntry& entry : table_.entries) {
     if (asked_for(entry)) continue;
-    mistyped.push_back(nearest(entry.key, known));
-    const std::string remedy = remedy_for(entry, known);
+    std::string meant = key_called ? key_called(entry.key) : "";
+    if (table_.find(meant)) meant.clear();
+    const std::string remedy = meant.empty() ? remedy_for(entry, known) : fmt::format("`{}` is called `{}` here", entry.key, meant);
+    mistyped.push_back(meant.empty() ? nearest(entry.key, known) : meant);
     diagnostics.error(entry.spot, "unknown key `" + entry.key + "` of " + what_,
                    remedy.empty() ? did_you_mean(entry.key, known, "its keys are " + list_names(known, "and")) : remedy);
   }

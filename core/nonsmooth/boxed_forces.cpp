@@ -291,14 +291,12 @@ void BoxedForces::give_way(const OverloadedCut& cut, std::vector<double>& load, 
   if (cut.beyond) cuts_.push_back(cut);
 }
 
-/// Whether every force is the potential difference clamped to its box. Each step rounds the potentials of both ends twice, and the
-/// difference that is stored apart four times, at most by `grain_` each time for a difference of two potentials.
+/// Whether every force is the potential difference clamped to its box, but for round-off.
 bool BoxedForces::of_least_norm(const std::vector<double>& force) {
-  constexpr double roundings = 6;
   for (std::size_t k = 0; k < branches_.size(); ++k) {
     const BoxedBranch& b = branches_[k];
     const double c = conductance(k);
-    if (!open_[k] || std::abs(force[k] - std::clamp(c * difference(k, phi_), b.low, b.high)) <= roundings * c * grain_) continue;
+    if (!open_[k] || std::abs(force[k] - std::clamp(c * difference(k, phi_), b.low, b.high)) <= numerics::roundings_of_a_step * c * grain_) continue;
     failed_branch_ = static_cast<int>(k);
     return false;
   }

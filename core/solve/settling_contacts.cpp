@@ -7,6 +7,7 @@
 
 #include "core/base/index.hpp"
 #include "core/base/numerics.hpp"
+#include "core/base/roundoff.hpp"
 
 namespace rheonet {
 
@@ -29,7 +30,10 @@ std::vector<int> SettlingContacts::find(System& system, const Tolerances& tolera
     const double kept = measured ? std::max(speed / before.speed, hop / before.hop) : e;
     const double next = measured ? kept * hop : pressing > 0 ? 2 * e * speed / pressing : std::numeric_limits<double>::infinity();
     const double allowed = numerics::settled_hops * accuracy_;
-    if (!(kept < 1 && kept * speed <= allowed * tolerances.seen().flow[at(slider.gauge)] && next / (1 - kept) <= allowed * length_)) continue;
+    const bool ends = kept < 1 && kept * speed <= allowed * tolerances.seen().flow[at(slider.gauge)] && next / (1 - kept) <= allowed * length_;
+    const double lost = e < 1 ? (1 - e) * e * speed : speed;
+    const bool unresolved = lost <= pressing * time_roundoff(length_);
+    if (!ends && !unresolved) continue;
     if (measured || e > 0) result.push_back(static_cast<int>(k));
     if (measured) since = std::min(since, before.t);
   }

@@ -12,7 +12,8 @@ namespace rheonet {
 /// rests now if the error of that stays below a share of `accuracy`: the speed w after this impact relative to the largest velocity of
 /// the contact, and the remaining time relative to the length of the run. The share r is measured over the last two hops, whatever
 /// takes the energy: the restitution, friction beside the stop, or a second mass that is dragged along. Before there are two, it is the
-/// restitution e, and the next hop takes 2 w/a, where a is the acceleration that presses on the contact.
+/// restitution e, and the next hop takes 2 w/a, where a is the acceleration that presses on the contact. A contact also rests if
+/// the next hop loses less speed than the round-off of its end gives back: the hops would not become shorter.
 class SettlingContacts {
  public:
   SettlingContacts(const Network& network, double accuracy, double length) : accuracy_(accuracy), length_(length), last_(network.sliders.size()) {}
