@@ -82,8 +82,8 @@ void Impacts::resolve(double t, const std::vector<double>& momentum, const Fired
   if (start) change.heat += halt(t, {}, modes, state, change.notes);
   const std::vector<double> before = start ? std::vector<double>(network_.sliders.size(), 0) : slider_velocities(net_, state);
   change.heat += collide(t, momentum, fired.settles, state, change);
-  std::vector<int> together = fired.sliders;
-  std::ranges::copy(closed_but_for_roundoff(fired.settles, state), std::back_inserter(together));
+  std::vector<int> together = closed_but_for_roundoff(fired.settles, state);
+  together.insert(together.begin(), fired.sliders.begin(), fired.sliders.end());
   Modes held = modes;
   const std::vector<double> after = slider_velocities(net_, state);
   for (const double v : state.velocity) largest_speed_ = std::max(largest_speed_, std::abs(v));

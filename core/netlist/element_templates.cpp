@@ -85,7 +85,7 @@ const TomlEntry* find_kind(const TomlValue& source, Spot spot, const std::string
 /// The parameter that has this name elsewhere, or else this symbol in its law; "" if none.
 std::string parameter_called(const Declaration& declaration, std::string_view name, Domain domain) {
   for (const Parameter& p : declaration.parameters) {
-    if (std::ranges::find(p.other_names, name) != p.other_names.end()) return p.name_in(domain);
+    if (std::find(p.other_names.begin(), p.other_names.end(), name) != p.other_names.end()) return p.name_in(domain);
   }
   for (const Parameter& p : declaration.parameters) {
     if (p.symbol == name) return p.name_in(domain);
@@ -359,9 +359,9 @@ void TemplateReader::read_element(ElementTemplate& plan, const TomlEntry& type, 
   }
   const auto misnamed = [&](const TomlEntry& entry) {
     const std::string called = parameter_called(declaration, entry.key, domain);
-    return std::ranges::any_of(declaration.one_of, [&](const std::string& name) { return find_parameter(declaration, name)->name_in(domain) == called; });
+    return std::any_of(declaration.one_of.begin(), declaration.one_of.end(), [&](const std::string& name) { return find_parameter(declaration, name)->name_in(domain) == called; });
   };
-  if (!declaration.one_of.empty() && given.empty() && std::ranges::none_of(plan.source->entries, misnamed)) {
+  if (!declaration.one_of.empty() && given.empty() && std::none_of(plan.source->entries.begin(), plan.source->entries.end(), misnamed)) {
     std::vector<std::string> names;
     for (const std::string& name : declaration.one_of)
       if (const Parameter* p = find_parameter(declaration, name)) names.push_back(p->name_in(domain));
