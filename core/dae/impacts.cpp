@@ -84,13 +84,17 @@ void Impacts::resolve(double t, const std::vector<double>& momentum, const Fired
   change.heat += collide(t, momentum, fired.settles, state, change);
   std::vector<int> together = closed_but_for_roundoff(fired.settles, state);
   together.insert(together.begin(), fired.sliders.begin(), fired.sliders.end());
-  Modes held = modes;
-  const std::vector<double> after = slider_velocities(net_, state);
   for (const double v : state.velocity) largest_speed_ = std::max(largest_speed_, std::abs(v));
+  change.heat += halt(t, together, without_moved(modes, before, state), state, change.notes);
+}
+
+/// The modes, without the sticking of sliders that an impact has set in motion; `before`: their velocities before it [m/s].
+Modes Impacts::without_moved(Modes modes, const std::vector<double>& before, const State& state) const {
+  const std::vector<double> after = slider_velocities(net_, state);
   for (std::size_t k = 0; k < after.size(); ++k) {
-    if (std::abs(after[k] - before[k]) > numerics::equal_energies * largest_speed_) held.slider[k] = Modes::forward;  // an impact has set it in motion
+    if (std::abs(after[k] - before[k]) > numerics::equal_energies * largest_speed_) modes.slider[k] = Modes::forward;
   }
-  change.heat += halt(t, together, held, state, change.notes);
+  return modes;
 }
 
 /// Contacts whose ends approach too slowly for an impact, or part by the round-off of an impact that gives nothing back. With this velocity,

@@ -22,6 +22,7 @@ class Impacts {
 
  private:
   std::vector<int> closed_but_for_roundoff(const std::vector<int>& settles, const State& state) const;
+  Modes without_moved(Modes modes, const std::vector<double>& before, const State& state) const;
   double halt(double t, const std::vector<int>& events, const Modes& modes, State& state, std::vector<std::string>& notes) const;
   double go_on_together(const std::vector<int>& joining, const Modes& held, State& state, std::vector<std::string>& notes) const;
   double collide(double t, const std::vector<double>& momentum, const std::vector<int>& settles, State& state, EventChange& change);
@@ -40,7 +41,7 @@ class Impacts {
   bool started_ = false;       ///< The impulses of the start have been resolved.
   std::vector<int> hit_;       ///< Sliders in contact whose ends moved towards each other at this event.
   double largest_kinetic_ = 0; ///< At events so far [J].
-  double largest_speed_ = 0;   ///< Of nodes, at events so far [m/s].
+  double largest_speed_ = 0;   ///< The largest of all nodes at events so far [m/s].
 };
 
 }  // namespace rheonet

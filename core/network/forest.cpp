@@ -10,10 +10,24 @@
 #include "core/base/format_list.hpp"
 #include "core/base/index.hpp"
 #include "core/base/numerics.hpp"
+#include "core/netlist/diagnostic_list.hpp"
 
 namespace rheonet {
 
 namespace {
+
+/// "; did you mean ...?" for a node of one element alone, whose name may be misspelt there.
+std::string other_node_meant(const Scene& scene, const std::string& name) {
+  int elements = 0;
+  for (const SceneElement& element : scene.elements) for_each_node(element, [&](NodeId node) { elements += scene.nodes[at(node)].name == name; });
+  if (elements != 1) return "";
+  std::vector<std::string> others;
+  for (const SceneNode& node : scene.nodes) {
+    if (node.name != name) others.push_back(node.name);
+  }
+  const std::string hint = did_you_mean(name, others);
+  return hint.empty() ? "" : "; " + hint;
+}
 
 [[noreturn]] void report_undefined(const Network& network, const Structure& s, const std::vector<int>& lost) {
   std::vector<std::string> names;
@@ -26,8 +40,8 @@ namespace {
   }
   throw SimulationError(network.spot_of_node(first), fmt::format(
       "nothing determines the motion of node{} {}: no mass there, and no element that resists motion leads from there to "
-      "ground, to a mass or to a prescribed motion; add one, or a mass",
-      names.size() > 1 ? "s" : "", format_list(names)));
+      "ground, to a mass or to a prescribed motion; add one, or a mass{}",
+      names.size() > 1 ? "s" : "", format_list(names), names.size() > 1 ? "" : other_node_meant(*network.scene, names.front())));
 }
 
 /// An element whose force is constant at present: it joins nodes, but its force does not depend on their motion.

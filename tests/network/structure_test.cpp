@@ -356,6 +356,11 @@ TEST_CASE("nodes whose motion nothing determines are named, with what would mend
       "nothing determines the motion of node `n1`: no mass there, and no element that resists motion leads from there "
       "to ground, to a mass or to a prescribed motion; add one, or a mass");
 
+  SceneBuilder misspelt;
+  mass(misspelt, "weight");
+  misspelt.force("pull", "weigth", Signal(Signal::Constant{1.7}));
+  CHECK(refusal(misspelt).find("add one, or a mass; did you mean `weight`?") != std::string::npos);
+
   SceneBuilder many;
   for (int n = 1; n <= 7; ++n)
     spring(many, "k" + std::to_string(n), "n" + std::to_string(n), "n" + std::to_string(n + 1));
