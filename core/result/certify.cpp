@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cerrno>
 #include <cmath>
 #include <cstdio>
@@ -32,6 +33,31 @@ void copy(MemoryFile& from, std::FILE* to, const char* what) {
   if (std::fwrite(text.data(), 1, text.size(), to) == text.size() && std::fflush(to) == 0) return;
   throw WriteError(std::string(what) + " cannot be written: " + std::strerror(errno));
 }
+
+/// Ends runs that take many times the steps of one that has ended: where round-off dominates the steps of a tighter run, they have no end
+/// that is worth waiting for. Runs side by side may share it.
+class StepLimit {
+ public:
+  RunSettings apply(RunSettings settings) {
+    settings.progress = [this, steps = 0L, tell = std::move(settings.progress)](double fraction) mutable {
+      if (tell) tell(fraction);
+      constexpr long times = numerics::certificate_steps;
+      const long others = steps_;
+      ++steps;
+      if (others == 0 || steps <= times * std::max(others, times)) return;
+      throw SimulationError(fmt::format("it was given up after {} steps, where a looser one, or one of another order, has {}", steps, others));
+    };
+    return settings;
+  }
+  /// Call when a run has ended. Exact arcs take steps of their own.
+  void ended(const Summary& run) {
+    const long steps = run.steps - run.arc_steps;
+    for (long most = steps_; most < steps && !steps_.compare_exchange_weak(most, steps);) {}
+  }
+
+ private:
+  std::atomic<long> steps_ = 0;  ///< the most of a run of IDA that has ended; 0 if none has
+};
 
 /// A run to one tolerance, with its output held back. Its records are the scene's, followed by forces to balance.
 struct Attempt {
@@ -101,14 +127,15 @@ class Certification {
   }
 
  private:
-  std::shared_ptr<Attempt> attempt(RunSettings settings, double tolerance) const {
+  std::shared_ptr<Attempt> attempt(RunSettings settings, double tolerance) {
     auto result = std::make_shared<Attempt>();
     result->tolerance = tolerance;
     settings.tolerance = tolerance;
     settings.csv = nullptr;
     settings.events = settings.events ? result->events.file() : nullptr;
     try {
-      run_as_reference(balances_.scene(), shift_, std::move(settings), result->reference);
+      run_as_reference(balances_.scene(), shift_, limit_.apply(std::move(settings)), result->reference);
+      limit_.ended(result->reference.summary);
     } catch (const WriteError&) {  // of the temporary file
       throw;
     } catch (const SimulationError&) {
@@ -135,13 +162,16 @@ class Certification {
   }
 
   /// A run of another order, whose steps, formulas and round-off are others.
-  ReferenceSolution run_of_other_order(double tolerance) const {
+  ReferenceSolution run_of_other_order(double tolerance) {
     const int order = settings_.order > 1 ? settings_.order - 1 : 2;
-    return run_as_reference(scene_, shift_, {.interrupt = settings_.interrupt, .tolerance = tolerance, .method = Scene::Method::ida, .order = order, .account = false});
+    ReferenceSolution result =
+        run_as_reference(scene_, shift_, limit_.apply({.interrupt = settings_.interrupt, .tolerance = tolerance, .method = Scene::Method::ida, .order = order, .account = false}));
+    limit_.ended(result.summary);
+    return result;
   }
 
   /// A run that measures another one: by IDA, whose errors have nothing in common with those of exact arcs.
-  std::shared_ptr<Attempt> measuring_run(double tolerance) const {
+  std::shared_ptr<Attempt> measuring_run(double tolerance) {
     RunSettings by_ida = settings_;
     by_ida.method = Scene::Method::ida;
     if (tolerance > numerics::certificate_roundoff * (1 + numerics::equal_tolerances)) return attempt(by_ida, tolerance);
@@ -241,6 +271,7 @@ class Certification {
   const RunSettings& settings_;
   const Balances balances_;
   const double shift_;  ///< displacement of a jump that the accuracy allows [s]
+  StepLimit limit_;
   std::shared_ptr<Attempt> kept_;
   Certificate result_;
 };
