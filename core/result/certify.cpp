@@ -34,29 +34,28 @@ void copy(MemoryFile& from, std::FILE* to, const char* what) {
   throw WriteError(std::string(what) + " cannot be written: " + std::strerror(errno));
 }
 
-/// Ends runs that take many times the steps of one that has ended: where round-off dominates the steps of a tighter run, they have no end
-/// that is worth waiting for. Runs side by side may share it.
+/// Ends measuring runs that take many times the steps of another one: where round-off keeps their steps short, they have no end that is
+/// worth waiting for. Runs side by side may share it.
 class StepLimit {
  public:
   RunSettings apply(RunSettings settings) {
-    settings.progress = [this, steps = 0L, tell = std::move(settings.progress)](double fraction) mutable {
+    settings.progress = [this, steps = 0.0, tell = std::move(settings.progress)](double fraction) mutable {
       if (tell) tell(fraction);
-      constexpr long times = numerics::certificate_steps;
-      const long others = steps_;
       ++steps;
-      if (others == 0 || steps <= times * std::max(others, times)) return;
-      throw SimulationError(fmt::format("it was given up after {} steps, where a looser one, or one of another order, has {}", steps, others));
+      const double others = static_cast<double>(steps_);
+      if (others == 0 || steps <= std::max(numerics::certificate_step_ratio * others, numerics::certificate_steps)) return;
+      throw SimulationError(fmt::format("it was given up after {:.0f} steps, where another one took {:.0f}: probably round-off keeps its steps short", steps, others));
     };
     return settings;
   }
-  /// Call when a run has ended. Exact arcs take steps of their own.
+  /// Call when a run has ended. The steps of exact arcs say nothing about those of IDA.
   void ended(const Summary& run) {
-    const long steps = run.steps - run.arc_steps;
-    for (long most = steps_; most < steps && !steps_.compare_exchange_weak(most, steps);) {}
+    if (run.arc_steps > 0) return;
+    for (long most = steps_; most < run.steps && !steps_.compare_exchange_weak(most, run.steps);) {}
   }
 
  private:
-  std::atomic<long> steps_ = 0;  ///< the most of a run of IDA that has ended; 0 if none has
+  std::atomic<long> steps_ = 0;  ///< the most of a run that has ended, by IDA alone; 0 if none has
 };
 
 /// A run to one tolerance, with its output held back. Its records are the scene's, followed by forces to balance.
@@ -134,7 +133,7 @@ class Certification {
     settings.csv = nullptr;
     settings.events = settings.events ? result->events.file() : nullptr;
     try {
-      run_as_reference(balances_.scene(), shift_, limit_.apply(std::move(settings)), result->reference);
+      run_as_reference(balances_.scene(), shift_, std::move(settings), result->reference);
       limit_.ended(result->reference.summary);
     } catch (const WriteError&) {  // of the temporary file
       throw;
@@ -172,7 +171,7 @@ class Certification {
 
   /// A run that measures another one: by IDA, whose errors have nothing in common with those of exact arcs.
   std::shared_ptr<Attempt> measuring_run(double tolerance) {
-    RunSettings by_ida = settings_;
+    RunSettings by_ida = limit_.apply(settings_);
     by_ida.method = Scene::Method::ida;
     if (tolerance > numerics::certificate_roundoff * (1 + numerics::equal_tolerances)) return attempt(by_ida, tolerance);
     auto beside = std::async(std::launch::async, [&] { return run_of_other_order(tolerance); });

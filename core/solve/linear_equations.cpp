@@ -128,7 +128,7 @@ VectorXd balance(MatrixXd& A, double slowest) {
 
 /// The inverse, with rows and columns scaled by powers of 2, as their units differ by decades. Empty if there is none. One round of iterative
 /// refinement makes each equation right to the round-off of its own terms (R. D. Skeel 1980): the force of a stiff spring in series with soft
-/// ones, for instance, whose deflection alone would be a small difference of theirs.
+/// ones, for instance, whose deflection alone would be a small difference of theirs. It is left out where it would not converge.
 MatrixXd scaled_inverse(const MatrixXd& matrix) {
   const Index n = matrix.rows();
   VectorXd rows = VectorXd::Ones(n), columns = VectorXd::Ones(n);
@@ -137,11 +137,13 @@ MatrixXd scaled_inverse(const MatrixXd& matrix) {
     for (Index i = 0; i < n; ++i) rows(i) *= level((rows(i) * matrix.row(i) * columns.asDiagonal()).cwiseAbs().maxCoeff());
     for (Index i = 0; i < n; ++i) columns(i) *= level((rows.asDiagonal() * matrix.col(i) * columns(i)).cwiseAbs().maxCoeff());
   }
-  const Eigen::FullPivLU<MatrixXd> factors(MatrixXd(rows.asDiagonal() * matrix * columns.asDiagonal()));
+  const MatrixXd scaled = rows.asDiagonal() * matrix * columns.asDiagonal();
+  const Eigen::FullPivLU<MatrixXd> factors(scaled);
   if (!factors.isInvertible()) return {};
-  MatrixXd inverse = columns.asDiagonal() * factors.inverse() * rows.asDiagonal();
-  inverse += inverse * (MatrixXd::Identity(n, n) - matrix * inverse);
-  return inverse;
+  MatrixXd inverse = factors.inverse();
+  const MatrixXd residual = MatrixXd::Identity(n, n) - scaled * inverse;
+  if (residual.cwiseAbs().colwise().sum().maxCoeff() < 1) inverse += inverse * residual;
+  return columns.asDiagonal() * inverse * rows.asDiagonal();
 }
 
 }  // namespace
