@@ -32,8 +32,8 @@ std::string wanted(const Parameter& parameter, const ElementTemplate& of, Domain
   if (parameter.kind == Parameter::Kind::expression) return function_example;
   if (parameter.kind == Parameter::Kind::table) return LookupTemplate::example;
   if (parameter.kind == Parameter::Kind::coefficients) return CoefficientsTemplate::example;
-  return parameter.quantity == Quantity::number ? "a number"
-                                                : "a " + name_of(parameter.quantity, domain) + ", in " + unit;
+  const std::string value = parameter.quantity == Quantity::number ? "a number" : "a " + name_of(parameter.quantity, domain) + ", in " + unit;
+  return parameter.description.empty() ? value : value + ": " + parameter.description;
 }
 
 /// Lists the parameters of a type that may vary in time; if there are none, the types that have such parameters.

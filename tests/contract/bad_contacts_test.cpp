@@ -147,7 +147,7 @@ s = { type = "slider", between = ["a", "b"], stribeck = { breakaway = 2, velocit
 scene.toml:4:1: error: a `slider` needs `coulomb`
     4 | s = { type = "slider", between = ["a", "b"], stribeck = { breakaway = 2, velocity = 0.1 } }
       | ^
-  a force, in N
+  a force, in N: force of sliding; 0 means no force, inf a rigid link; with `normal`, the coefficient of friction
 scene.toml:4:57: error: `stribeck` is constant in time, but is a table
     4 | s = { type = "slider", between = ["a", "b"], stribeck = { breakaway = 2, velocity = 0.1 } }
       |                                                         ^

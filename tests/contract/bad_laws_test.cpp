@@ -73,7 +73,7 @@ f = { type = "sample", in = "a.velocity" }
 scene.toml:4:1: error: a `sample` needs `period`
     4 | f = { type = "sample", in = "a.velocity" }
       | ^
-  a time, in s
+  a time, in s: time between two samples
 )~"},
       {"a negative period",
        R"~(

@@ -19,7 +19,7 @@ g = { type = "gear", between = ["a", "b"] }
 scene.toml:5:1: error: a `gear` needs `ratio`
     5 | g = { type = "gear", between = ["a", "b"] }
       | ^
-  a number
+  a number: velocity of the first node over that of the second, not 0; negative where they turn against each other
 )~"},
       {"a ratio of 0",
        R"~(
@@ -145,7 +145,7 @@ scene.toml:5:1: error: `p` needs `between`
 scene.toml:5:1: error: a `rack` needs `radius`
     5 | p = { type = "rack", rotation = "r", translation = "x" }
       | ^
-  a length, in m
+  a length, in m: radius of the pinion, the drum or the wheel
 scene.toml:5:22: error: unknown key `rotation` of a `rack`
     5 | p = { type = "rack", rotation = "r", translation = "x" }
       |                      ^
@@ -275,7 +275,7 @@ i = { type = "inerter", between = ["a", "b"] }
 scene.toml:4:1: error: an `inerter` needs `inertance`
     4 | i = { type = "inerter", between = ["a", "b"] }
       | ^
-  a mass, in kg
+  a mass, in kg: force per relative acceleration; 0 means no inerter, inf a rigid link
 )~"},
   });
 }

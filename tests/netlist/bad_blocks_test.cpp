@@ -413,7 +413,7 @@ scene.toml:4:56: error: `period` must be greater than 0, but is 0
 scene.toml:5:1: error: a `sample` needs `period`
     5 | z = { type = "sample", in = "shaft.velocity" }
       | ^
-  a time, in s
+  a time, in s: time between two samples
 )~"},
   };
   for (const Bad& bad : cases) check_messages(bad);
