@@ -26,12 +26,15 @@ bool expect_kind(const TomlValue& value, TomlValue::Kind kind, const char* kind_
   return false;
 }
 
+/// The name of a start value in this format, by its name in rotation.
+std::string_view start_value_called(std::string_view key) { return key == "angle" ? "position" : key == "angular_velocity" ? "velocity" : key; }
+
 /// The right place of a key that is often misplaced; empty for all other keys.
 std::string place_of(std::string_view key) {
   const auto among = [&](std::initializer_list<std::string_view> reader) { return std::find(reader.begin(), reader.end(), key) != reader.end(); };
   if (among({"domain", "title", "include"})) return "at the top of the file, above all tables: it is for the whole scene";
   if (among({"stop", "accuracy", "output", "record", "start_from"})) return "in [simulate]";
-  if (among({"velocity", "angular_velocity", "position", "angle"})) return fmt::format("in [nodes], as a start value of a node: a = {{ {} = ... }}", key);
+  if (among({"velocity", "angular_velocity", "position", "angle"})) return fmt::format("in [nodes], as a start value of a node: a = {{ {} = ... }}", start_value_called(key));
   return "";
 }
 
@@ -41,6 +44,8 @@ std::string remedy_for(const TomlEntry& entry, const std::vector<std::string>& k
   if (entry.value.is_table() && (entry.value.find("type") || entry.value.find("series") || entry.value.find("parallel")))
     return fmt::format("this is an element below the header of another table: move it above that header, or write [elements.{}]", entry.key);
   if (entry.key == "period" && has("frequency")) return "`frequency` is 1/period: a period of 0.5 s is frequency = \"2 Hz\"";
+  const std::string_view called = start_value_called(entry.key);
+  if (called != entry.key && has(called)) return fmt::format("`{}` is called `{}` here, in rotation too", entry.key, called);
   const std::string place = place_of(entry.key);
   return place.empty() ? "" : "`" + entry.key + "` belongs " + place;
 }

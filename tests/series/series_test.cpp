@@ -180,7 +180,7 @@ TEST_CASE("chains that failed have forces in balance") {
 }
 
 // At the tightest tolerance round-off keeps the third run at order 1, in steps of 1e-10 s from 0.10806 s on.
-TEST_CASE("a certificate gives up runs that take a hundred times the steps of those before them") {
+TEST_CASE("a certificate gives up runs that take a hundred times the steps of another") {
   std::string toml = random_chain(129).toml;
   const std::string whole = "stop = 1\n";
   REQUIRE(toml.find(whole) != std::string::npos);

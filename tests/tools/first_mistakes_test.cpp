@@ -49,6 +49,8 @@ TEST_CASE("what beginners write, or users of other tools: each message says what
     CHECK(contains(said, mistake.message));
     CHECK(contains(said, mistake.remedy));
   }
+  folder.write("scene.toml", "[elements]\nm = { type = 'inertia', at = 'a', inertia = 1 }\n[nodes]\na = { angle = 1 }\n[simulate]\nstop = 1\n");
+  CHECK(contains(folder.shell("rheonet check scene.toml", 2).err, "`angle` is called `position` here, in rotation too"));
   folder.write("scene.toml", "[[elements]]\ns = 1\n[simulate]\nstop = 1\n");
   CHECK(contains(folder.shell("rheonet check scene.toml", 2).err, "the header of a table has single brackets, as [elements]"));
   folder.write("scene.toml", "include = ['library/rheology']\n[simulate]\nstop = 1\n");
