@@ -35,7 +35,7 @@ constexpr std::array<std::array<double, parts + 1>, places> lagrange() {
 }  // namespace
 
 EventFinder::EventFinder(const EventFunctions& functions, bool locate, Look look)
-    : functions_(functions), locate_(locate), look_(std::move(look)), fired_(at(functions.count()), 0), left_(fired_.size(), 0), between_(left_), right_(left_), band_(left_) {}
+    : functions_(functions), locate_(locate), look_(std::move(look)), fired_(at(functions.count()), 0), left_(fired_.size(), 0), between_(left_), right_(left_), later_(left_), band_(left_) {}
 
 void EventFinder::take(int which) {
   std::fill(fired_.begin(), fired_.end(), 0);
@@ -48,11 +48,22 @@ std::optional<double> EventFinder::in_step(double begin, double end) {
 }
 
 /// Between equal parts of the step a function is a polynomial of degree 4 as far as one can see; where that comes near 0, the function
-/// itself is looked at.
+/// itself is looked at, before the first event that the ends of the parts show.
 std::optional<double> EventFinder::in_long_step(double begin, double end) {
   std::vector<Seen> seen{{begin, left_}};
   for (int k = 1; k <= parts; ++k) seen.push_back(look_at(k == parts ? end : begin + (end - begin) * k / parts));
-  look_at_dips(seen);
+  const std::optional<double> event = first_of(seen);
+  const std::vector<double> dips = find_dips(seen, event.value_or(end));
+  if (dips.empty()) return event;
+  for (const double t : dips) {
+    const auto behind = std::lower_bound(seen.begin(), seen.end(), t, [](const Seen& one, double then) { return one.time < then; });
+    if (behind->time != t) seen.insert(behind, look_at(t));
+  }
+  return first_of(seen);
+}
+
+/// The first event that these show.
+std::optional<double> EventFinder::first_of(const std::vector<Seen>& seen) {
   for (std::size_t k = 1; k < seen.size(); ++k) {
     left_ = seen[k - 1].functions;
     right_ = seen[k].functions;
@@ -67,9 +78,10 @@ EventFinder::Seen EventFinder::look_at(double t) const {
   return there;
 }
 
-void EventFinder::look_at_dips(std::vector<Seen>& seen) const {
+/// Times before `end` at which some function comes near 0.
+std::vector<double> EventFinder::find_dips(const std::vector<Seen>& seen, double end) const {
   static constexpr auto shares = lagrange();
-  const double begin = seen.front().time, end = seen.back().time;
+  const double begin = seen.front().time, apart = (seen.back().time - begin) / (parts * finer), near = std::min(apart, (end - begin) / 2);
   std::vector<double> dips;
   for (std::size_t f = 0; f < fired_.size(); ++f) {
     std::array<double, parts + 1> g;
@@ -79,19 +91,15 @@ void EventFinder::look_at_dips(std::vector<Seen>& seen) const {
     if (!(*least > 0) || *least > (1 + numerics::arc_dip) * (*most - *least)) continue;
     double lowest = std::numeric_limits<double>::infinity();
     std::size_t place = 0;
-    for (std::size_t p = 0; p < places; ++p) {
+    for (std::size_t p = 0; p < places && begin + apart * static_cast<double>(p) < end; ++p) {
       const double value = std::inner_product(g.begin(), g.end(), shares[p].begin(), 0.0);
       if (value < lowest) lowest = value, place = p;
     }
     if (lowest > numerics::arc_dip * (*most - *least)) continue;
-    const double apart = (end - begin) / (parts * finer);
-    const std::optional<double> t = minimum_near(f, begin + apart * static_cast<double>(place), begin, end, apart);
+    const std::optional<double> t = minimum_near(f, begin + apart * static_cast<double>(place), begin, end, near);
     if (t) dips.push_back(*t);
   }
-  for (const double t : dips) {
-    const auto behind = std::lower_bound(seen.begin(), seen.end(), t, [](const Seen& one, double then) { return one.time < then; });
-    if (behind->time != t) seen.insert(behind, look_at(t));
-  }
+  return dips;
 }
 
 /// Where a function has a minimum near t, by parabolas through three of its values, or a time at which it is not positive. Absent if it
@@ -126,8 +134,28 @@ std::optional<double> EventFinder::fire(double begin, double end) {
   return std::find(fired_.begin(), fired_.end(), 1) != fired_.end() ? std::optional(end) : std::nullopt;
 }
 
+/// Share of the interval, from its end, at which the first function has a zero by the rule of false position, with those at the beginning times `weight`.
+double EventFinder::share_to_zero(double weight) const {
+  double share = 0;
+  for (std::size_t k = 0; k < left_.size(); ++k) {
+    if (left_[k] > 0 && right_[k] <= 0) share = std::max(share, right_[k] / (right_[k] - weight * left_[k]));
+  }
+  return share;
+}
+
+/// The time before `end` at which the first function is 0 along its secant through `end` and a later time. 0 has no meaning if no function falls there.
+double EventFinder::before_end(double end, double later) const {
+  double ahead = 0;
+  for (std::size_t k = 0; k < left_.size(); ++k) {
+    if (left_[k] > 0 && right_[k] <= 0 && later_[k] < right_[k]) ahead = std::max(ahead, right_[k] / (later_[k] - right_[k]));
+  }
+  return end - ahead * (later - end);
+}
+
 /// Finds the time just behind the first event, by the Illinois variant of the rule of false position (Dowell and Jarratt, BIT 11 (1971)
-/// 168), applied to the function that falls first.
+/// 168), applied to the function that falls first. Near a simple zero the same end moves twice in a row at most. Where it moves more often, a function
+/// hardly changes before it falls, as where sliders that share a load are at their bounds and the last of them is overloaded: from then on
+/// secants through points behind the event are tried, and the interval is halved where they do not halve it.
 double EventFinder::locate(double begin, double end) {
   const double near = numerics::event_time_ulps * std::numeric_limits<double>::epsilon() * (std::abs(end) + (end - begin));
   for (std::size_t k = 0; k < left_.size(); ++k) {
@@ -139,27 +167,32 @@ double EventFinder::locate(double begin, double end) {
   };
   take_bands(left_);
   take_bands(right_);
-  double weight = 1;    // of the functions at the beginning
-  int last_moved = 0;   // 1: the end moved
-  for (int round = 0; end - begin > near; ++round) {
-    double share = 0;  // of the interval, from its end to the first zero
-    for (std::size_t k = 0; k < left_.size(); ++k) {
-      if (left_[k] > 0 && right_[k] <= 0) share = std::max(share, right_[k] / (right_[k] - weight * left_[k]));
-    }
-    const double guess = round < numerics::false_position_iterations ? end - share * (end - begin) : begin + (end - begin) / 2;
+  double weight = 1;   // of the functions at the beginning
+  int in_a_row = 0;    // moves of the same end; below 0 for the beginning
+  double later = end;  // the end before it moved last, with the functions in `later_`
+  bool by_secants = false, halve = true;
+  while (end - begin > near) {
+    const double length = end - begin, middle = begin + length / 2;
+    double guess = by_secants ? middle : end - share_to_zero(weight) * length;
+    if (by_secants && !halve && later > end) guess = before_end(end, later);
+    // What the last secant found is the beginning now: the zero is a little behind it.
+    if (!(guess > begin)) guess = begin + std::sqrt(near * length);
     const double t = std::clamp(guess, begin + near / 2, end - near / 2);
     look_(t, between_);
     take_bands(between_);
-    const int moves = falls(between_) ? 1 : -1;
-    weight = moves != last_moved ? 1 : moves > 0 ? weight / 2 : 2 * weight;
-    last_moved = moves;
-    if (moves > 0) {
-      end = t;
+    const int move = falls(between_) ? 1 : -1;
+    in_a_row = move * in_a_row > 0 ? in_a_row + move : move;
+    weight = std::abs(in_a_row) == 1 ? 1 : move > 0 ? weight / 2 : 2 * weight;
+    if (move > 0) {
+      later = std::exchange(end, t);
+      later_.swap(right_);
       right_.swap(between_);
     } else {
       begin = t;
       left_.swap(between_);
     }
+    by_secants = by_secants || std::abs(in_a_row) > 2;
+    halve = 2 * (end - begin) > length;
   }
   return end;
 }

@@ -42,9 +42,12 @@ class EventFinder {
  private:
   struct Seen { double time; std::vector<double> functions; };
   Seen look_at(double t) const;
-  void look_at_dips(std::vector<Seen>& seen) const;
+  std::optional<double> first_of(const std::vector<Seen>& seen);
+  std::vector<double> find_dips(const std::vector<Seen>& seen, double end) const;
   std::optional<double> minimum_near(std::size_t function, double t, double begin, double end, double apart) const;
   bool falls(const std::vector<double>& now) const;
+  double share_to_zero(double weight) const;
+  double before_end(double end, double later) const;
   std::optional<double> fire(double begin, double end);
   double locate(double begin, double end);
 
@@ -52,7 +55,8 @@ class EventFinder {
   bool locate_;
   Look look_;
   std::vector<int> fired_;
-  std::vector<double> left_, between_, right_;  ///< event functions at both ends of a step and within
+  std::vector<double> left_, between_, right_;  ///< event functions at both ends of an interval and within
+  std::vector<double> later_;                   ///< and at a time after its end
   std::vector<double> band_;                    ///< dead band of each that fell in the last step: see EventFunctions
 };
 

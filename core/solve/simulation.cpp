@@ -342,7 +342,7 @@ class Run {
       // Hops that end in rest are no chattering, as long as time resolves them.
       const bool hops = impact_ == t && t - hopped_ > time_roundoff(t);
       if (impact_ == t) hopped_ = t;
-      if (chatter_.endless(t, fired_, settings_.stop - t) && (impact_ == t || chatter_.endless_time() * rate_at(t) < numerics::endless_time)) {
+      if (chatter_.endless(t, fired_, settings_.stop - t) && (impact_ == t || too_fast(t, chatter_.endless_time()))) {
         if (may_jam(network_, fired_)) report_losses(network_, at_time(*network_.scene, t));
         throw SimulationError(network_.spot_of(fired_.front()), at_time(*network_.scene, t) + " " + chatter_.describe_endless(network_, impact_ == t));
       }
@@ -390,6 +390,9 @@ class Run {
 
   /// The fastest rate of the network or its inputs [1/s].
   double rate_at(double t) { return std::max(system_->consistency.fastest_rate(t, horizon(t), y_, yp_), inputs_.fastest()); }
+
+  /// True if neither the network nor its inputs can have changed as often as `chatter_events` in this time, or time does not resolve them.
+  bool too_fast(double t, double lasted) { return lasted < numerics::chatter_events * time_roundoff(t) || lasted * rate_at(t) < numerics::endless_time; }
 
   /// True if causes fire again and again without a change, in less time than the network or its inputs take to change.
   bool gets_nowhere(double t, const std::vector<int>& causes) {

@@ -190,4 +190,13 @@ TEST_CASE("a certificate gives up runs that take a hundred times the steps of an
   CHECK(certificate.obstacle.find("was given up after") != std::string::npos);
 }
 
+// At 1e-12 and order 4, e1 reverses every 1e-15 s from 0.3217 s on: its velocity is that of a dilatant dashpot beside it, of forces that are round-off.
+TEST_CASE("events that come within the round-off of time, over and over, end the run") {
+  std::string toml = random_chain(860).toml;
+  const std::string whole = "stop = 1\n";
+  REQUIRE(toml.find(whole) != std::string::npos);
+  toml.replace(toml.find(whole), whole.size(), "stop = 0.35\n");
+  CHECK_THROWS_WITH_AS(run(scene_of(toml, 1e-12), {.order = 4}), doctest::Contains("`e1` switches over and over"), SimulationError);
+}
+
 }  // namespace rheonet::test::series_test
