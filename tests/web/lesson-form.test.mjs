@@ -125,7 +125,7 @@ test('a lesson is made from nothing, sent as a link, and taken by a student', as
     // The link carries the lesson as it was at first, and the lesson begins again there.
     await redrawn(student, () => number(student, 'parameters.Tc').fill('5').then(() => number(student, 'parameters.Tc').press('Enter')));
     await student.getByRole('button', { name: 'Begin this lesson again' }).click();
-    await student.waitForFunction(() => document.body.classList.contains('predicting') && document.querySelector('.choices'));
+    await student.waitForFunction(() => document.body?.classList.contains('predicting') && document.querySelector('.choices'));
     await student.reload();
     await offered(student);
     assert.equal(await student.locator('.plots-box').isVisible(), false);
@@ -322,7 +322,7 @@ test('editing keeps presets, comments and the texts in other languages', async (
   assert.equal(readFileSync(inFolder('taught.lesson'), 'utf8'), expected);
   // In German: only the German texts change. An answer in between is removed.
   await page.locator('select.language').selectOption('de');
-  await page.waitForFunction(() => document.documentElement.lang === 'de');
+  await page.waitForFunction(() => document.documentElement?.lang === 'de');
   await offered(page);
   await choose(page, 'Speichern', 'Lektion bearbeiten');
   assert.equal(await box(page, 'Frage').inputValue(), 'Was macht das Drehmoment?');

@@ -154,7 +154,7 @@ test('a lesson stays where it is when the language changes', async () => {
   await page.getByRole('radio', { name: 'It stays.' }).check();
   const language = async (code) => {
     await page.locator('select.language').selectOption(code);
-    await page.waitForFunction((now) => document.documentElement.lang === now, code);
+    await page.waitForFunction((now) => document.documentElement?.lang === now, code);
     await offered(page);
   };
   await language('fr');

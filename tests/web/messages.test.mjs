@@ -31,12 +31,12 @@ test('the page has the language of the browser, or the one that is chosen, also 
   await page.waitForFunction(() => /pas, .* ms après la modification/.test(document.querySelector('.status').textContent));
   for (const [language, gallery] of [['de', 'Galerie'], ['es', 'Galería'], ['en', 'Gallery']]) {
     await page.locator('select.language').selectOption(language);
-    await page.waitForFunction((code) => document.documentElement.lang === code, language);
+    await page.waitForFunction((code) => document.documentElement?.lang === code, language);
     await page.getByRole('button', { name: gallery, exact: true }).waitFor();
   }
   await done(page);
   await page.locator('select.language').selectOption('de');
-  await page.waitForFunction(() => document.documentElement.lang === 'de');
+  await page.waitForFunction(() => document.documentElement?.lang === 'de');
   await page.reload();
   await page.getByRole('button', { name: 'Vergleichen' }).waitFor();
   await page.locator('.sections details summary', { hasText: 'Gleichungen' }).waitFor();
@@ -51,7 +51,7 @@ test('a netlist that is not saved stays when the language changes', async () => 
   await knob.press('Enter');
   await done(page);
   await page.locator('select.language').selectOption('es');
-  await page.waitForFunction(() => document.documentElement.lang === 'es');
+  await page.waitForFunction(() => document.documentElement?.lang === 'es');
   await page.waitForFunction(() => [...document.querySelectorAll('.cm-line')].some((line) => line.textContent.includes('"6 N*m"')));
   await close();
 });

@@ -346,7 +346,7 @@ test('the token leaves the address for the storage of the page, which opens agai
   await done(second);
   await second.evaluate(() => localStorage.clear());
   await second.reload();
-  await second.waitForFunction(() => /the token of the address/.test(document.body.textContent));
+  await second.waitForFunction(() => /the token of the address/.test(document.body?.textContent));
   await second.close();
   // Another browser gets no page without it.
   const stranger = await desk.chromium.newContext();
