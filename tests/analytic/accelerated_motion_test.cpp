@@ -112,6 +112,32 @@ dashpot = {{ type = "dashpot", between = ["top", "base"], damping = {:.17g} }}
 )", A, frequency, m, k, c), stop) + record(expected), expected);
 }
 
+// The velocity of the base goes to and fro, its position stays near the origin: an error of the velocity is one of the position that grows to the end.
+TEST_CASE("a base that a function accelerates to and fro for long ends where it should") {
+  const double a = 3, w = 7, longer = 60;
+  const std::string toml = fmt::format(R"toml(
+[elements]
+waves   = {{ type = "function", out = "{} * cos({}*t)" }}
+base    = {{ type = "motion", at = "base", acceleration = {{ block = "waves" }} }}
+mass    = {{ type = "mass", at = "top", mass = 1 }}
+spring  = {{ type = "spring", between = ["top", "base"], stiffness = 90 }}
+dashpot = {{ type = "dashpot", between = ["top", "base"], damping = 2 }}
+[simulate]
+stop   = {}
+record = ["base.position"]
+output = {{ points = 801 }}
+)toml", a, w, longer);
+  for (const double accuracy : {1e-3, 1e-5, 1e-6}) {
+    CAPTURE(accuracy);
+    const RunTable rows = simulate(toml, accuracy);
+    double worst = 0;
+    for (std::size_t row = 0; row < rows.time().size(); ++row) {
+      worst = std::max(worst, std::abs(rows["base.position"][row] - a / (w * w) * (1 - std::cos(w * rows.time()[row]))));
+    }
+    CHECK(worst <= 2 * accuracy * (2 * a / (w * w)));
+  }
+}
+
 TEST_CASE("friction on an accelerated base slips where the acceleration exceeds Fc/m") {
   const double m = 1.73, Fc = 2.37;
   for (const double share : {0.98, 1.02}) {
