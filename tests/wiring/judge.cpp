@@ -103,15 +103,18 @@ Judgement judge(const Wiring& wiring, bool closer) {
   // The reference does not determine how sticking sliders share a load; balance and least norm do.
   result.text = wrong_sticking(scene, run.rows);
   if (!result.text.empty()) return result;
+  const auto judged_with = [&](const ReferenceSettings& settings) { return beside(scene, run, integrate_reference(scene, declarations(), settings)); };
   for (const int more : {closer ? 4 : 0, 2, 4}) {
     ReferenceSettings settings;
     settings.halvings += more;
     // A retry needs a tighter target, otherwise it would accept the same solution.
     if (more > 0) settings.target *= 1e-2;
-    result = beside(scene, run, integrate_reference(scene, declarations(), settings));
+    result = judged_with(settings);
     const bool refused_without_need = !run.refusal.empty() && !says(run.refusal, overload);
     if (closer || refused_without_need || (result.verdict != Verdict::wrong && result.verdict != Verdict::undecided)) break;
   }
+  // A turn that lies badly between the steps may have stopped the reference, or have hidden its errors from it.
+  if (result.verdict == Verdict::undecided) result = judged_with({.base_steps = 600});
   return result;
 }
 
