@@ -22,7 +22,7 @@ void BlockScales::follow(Dae& dae) {
   if (!network_.blocks.blocks.empty()) gains_.follow(dae.inputs().blocks());
 }
 
-void BlockScales::find(Dae& dae, const Dae::View& view, const Magnitudes& seen, const ByUnknown& foreseen, double largest_force, double local, double elapsed) {
+void BlockScales::find(Dae& dae, const Dae::View& view, const Magnitudes& seen, const ByUnknown& foreseen, double largest_force, double local) {
   if (network_.blocks.blocks.empty()) return;
   for (std::size_t k = 0; k < most_.size(); ++k) most_[k].assign(seen.unknown[k].size(), std::numeric_limits<double>::infinity());
   BlockSignals& blocks = dae.inputs().blocks();
@@ -39,13 +39,14 @@ void BlockScales::find(Dae& dae, const Dae::View& view, const Magnitudes& seen, 
     // While a state has only begun to grow, the output behind it is as small as the state.
     if (allowed > 0) most_[sort][k] = std::min(most_[sort][k], std::max({allowed, least, state ? foreseen[sort][k] / (together * together) : 0.0}));
   });
-  // Nothing restores a given motion: an error of its velocity goes on until the end.
+  // Nothing restores a given motion: an error of its velocity moves its position until the run ends.
+  const double length = network_.scene->stop - network_.scene->start;
   for (const Network::Motion& motion : network_.motions) {
     const int state = motion.block >= 0 ? blocks.state_of(motion.block) : -1;
     const double place = seen.unknown[static_cast<std::size_t>(Sort::position)][at(motion.node)];
-    if (state < 0 || !(place > 0 && elapsed > 0)) continue;
+    if (state < 0 || !(place > 0)) continue;
     double& most = most_[static_cast<std::size_t>(Sort::block)][at(state)];
-    most = std::min(most, std::max(place / elapsed, foreseen[static_cast<std::size_t>(Sort::block)][at(state)]));
+    most = std::min(most, std::max(place / length, foreseen[static_cast<std::size_t>(Sort::block)][at(state)]));
   }
   if (!network_.blocks.sensors.empty()) find_behind_forces(dae, view, largest_force);
 }

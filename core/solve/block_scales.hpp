@@ -20,9 +20,8 @@ class BlockScales {
   explicit BlockScales(const Network& network);
   /// Call at restarts: a limiter may have reached or left a bound.
   void follow(Dae& dae);
-  /// Finds the scales in this state. `foreseen`: sizes that the unknowns are to reach soon. `local`: tolerance of a step, relative to scales; `largest_force` of the run [N], of which `elapsed` have
-  /// passed [s].
-  void find(Dae& dae, const Dae::View& view, const Magnitudes& seen, const ByUnknown& foreseen, double largest_force, double local, double elapsed);
+  /// Finds the scales in this state. `foreseen`: sizes that the unknowns are to reach soon. `local`: tolerance of a step, relative to scales; `largest_force` of the run [N].
+  void find(Dae& dae, const Dae::View& view, const Magnitudes& seen, const ByUnknown& foreseen, double largest_force, double local);
 
   /// The scale of an unknown, from what it is without blocks.
   double limit(const Unknown& q, double scale) const { return network_.blocks.blocks.empty() ? scale : std::min(scale, rheonet::of(most_, q)); }

@@ -55,11 +55,17 @@ std::optional<double> EventFinder::in_long_step(double begin, double end) {
   const std::optional<double> event = first_of(seen);
   const std::vector<double> dips = find_dips(seen, event.value_or(end));
   if (dips.empty()) return event;
+  const std::vector<double> functions = left_;
+  const std::vector<int> fired = fired_;
+  std::erase_if(seen, [&](const Seen& one) { return one.time >= event.value_or(end); });
   for (const double t : dips) {
     const auto behind = std::lower_bound(seen.begin(), seen.end(), t, [](const Seen& one, double then) { return one.time < then; });
-    if (behind->time != t) seen.insert(behind, look_at(t));
+    if (behind == seen.end() || behind->time != t) seen.insert(behind, look_at(t));
   }
-  return first_of(seen);
+  if (const std::optional<double> earlier = first_of(seen)) return earlier;
+  left_ = functions;
+  fired_ = fired;
+  return event;
 }
 
 /// The first event that these show.
@@ -91,7 +97,8 @@ std::vector<double> EventFinder::find_dips(const std::vector<Seen>& seen, double
     if (!(*least > 0) || *least > (1 + numerics::arc_dip) * (*most - *least)) continue;
     double lowest = std::numeric_limits<double>::infinity();
     std::size_t place = 0;
-    for (std::size_t p = 0; p < places && begin + apart * static_cast<double>(p) < end; ++p) {
+    // A dip may be nearest to the first place behind the end.
+    for (std::size_t p = 0; p < places && (p == 0 || begin + apart * static_cast<double>(p - 1) < end); ++p) {
       const double value = std::inner_product(g.begin(), g.end(), shares[p].begin(), 0.0);
       if (value < lowest) lowest = value, place = p;
     }
@@ -134,7 +141,8 @@ std::optional<double> EventFinder::fire(double begin, double end) {
   return std::find(fired_.begin(), fired_.end(), 1) != fired_.end() ? std::optional(end) : std::nullopt;
 }
 
-/// Share of the interval, from its end, at which the first function has a zero by the rule of false position, with those at the beginning times `weight`.
+/// Share of the interval, from its end, at which the first function has a zero by the rule of false position, with the values at the beginning multiplied
+/// by `weight`.
 double EventFinder::share_to_zero(double weight) const {
   double share = 0;
   for (std::size_t k = 0; k < left_.size(); ++k) {
@@ -143,7 +151,7 @@ double EventFinder::share_to_zero(double weight) const {
   return share;
 }
 
-/// The time before `end` at which the first function is 0 along its secant through `end` and a later time. 0 has no meaning if no function falls there.
+/// The time before `end` at which the first function is 0 along its secant through `end` and a later time; `end` if no function falls there.
 double EventFinder::before_end(double end, double later) const {
   double ahead = 0;
   for (std::size_t k = 0; k < left_.size(); ++k) {
@@ -155,7 +163,7 @@ double EventFinder::before_end(double end, double later) const {
 /// Finds the time just behind the first event, by the Illinois variant of the rule of false position (Dowell and Jarratt, BIT 11 (1971)
 /// 168), applied to the function that falls first. Near a simple zero the same end moves twice in a row at most. Where it moves more often, a function
 /// hardly changes before it falls, as where sliders that share a load are at their bounds and the last of them is overloaded: from then on
-/// secants through points behind the event are tried, and the interval is halved where they do not halve it.
+/// secants through points behind the event are tried, and the interval is halved where they do not halve it. So each two rounds halve it at least.
 double EventFinder::locate(double begin, double end) {
   const double near = numerics::event_time_ulps * std::numeric_limits<double>::epsilon() * (std::abs(end) + (end - begin));
   for (std::size_t k = 0; k < left_.size(); ++k) {
@@ -175,7 +183,7 @@ double EventFinder::locate(double begin, double end) {
     const double length = end - begin, middle = begin + length / 2;
     double guess = by_secants ? middle : end - share_to_zero(weight) * length;
     if (by_secants && !halve && later > end) guess = before_end(end, later);
-    // What the last secant found is the beginning now: the zero is a little behind it.
+    // The last secant led to the beginning, so the zero is near it: the geometric mean of what the interval is and of what it is to be.
     if (!(guess > begin)) guess = begin + std::sqrt(near * length);
     const double t = std::clamp(guess, begin + near / 2, end - near / 2);
     look_(t, between_);

@@ -391,8 +391,13 @@ class Run {
   /// The fastest rate of the network or its inputs [1/s].
   double rate_at(double t) { return std::max(system_->consistency.fastest_rate(t, horizon(t), y_, yp_), inputs_.fastest()); }
 
-  /// True if neither the network nor its inputs can have changed as often as `chatter_events` in this time, or time does not resolve them.
-  bool too_fast(double t, double lasted) { return lasted < numerics::chatter_events * time_roundoff(t) || lasted * rate_at(t) < numerics::endless_time; }
+  /// True if `chatter_events` events that took this time are closer than time resolves, or much closer than the network or its inputs change. At rest nothing
+  /// tells how fast the network has been.
+  bool too_fast(double t, double lasted) {
+    if (lasted < numerics::chatter_events * time_roundoff(t)) return true;
+    const double rate = rate_at(t);
+    return rate > 0 && lasted * rate < numerics::endless_time;
+  }
 
   /// True if causes fire again and again without a change, in less time than the network or its inputs take to change.
   bool gets_nowhere(double t, const std::vector<int>& causes) {

@@ -187,7 +187,7 @@ void Tolerances::update(double t, const std::vector<double>& yp, const Dae::View
   const BySort largest = find_largest(slope);
   const double relative = accuracy_.local(), velocity = largest[static_cast<std::size_t>(Sort::velocity)];
   accuracy_.largest_velocity = velocity;
-  block_scales_.find(*dae_, view, seen_, foreseen_, largest[static_cast<std::size_t>(Sort::force)], relative, t - begin_);
+  block_scales_.find(*dae_, view, seen_, foreseen_, largest[static_cast<std::size_t>(Sort::force)], relative);
   const LeastShares least = least_shares();
   const UnknownRoundoff::At now{t, step_, begin_};
   std::optional<BySort> to_come;  // rarely needed

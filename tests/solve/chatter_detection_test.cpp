@@ -4,6 +4,7 @@
 #include "core/solve/chatter_detection.hpp"
 
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include <cmath>
 
@@ -168,6 +169,27 @@ output = { points = 11 }
     Scene closes = scene("velocity = -0.1");
     closes.method = method;
     CHECK(attempt(closes).refusal.find("no room left") != std::string::npos);
+  }
+}
+
+// The last of 600 reversals brings it to rest, where nothing tells how fast it has been.
+TEST_CASE("headway: a fast oscillation that friction brings to rest is none, however long it rests") {
+  for (const double coulomb : {820e3, 825e3, 833333.3333333334, 840e3, 850e3, 860e3}) {
+    CAPTURE(coulomb);
+    const RunTable rows = simulate(fmt::format(R"(
+[elements]
+m = {{ type = "mass", at = "x", mass = 1 }}
+k = {{ type = "spring", between = ["x", "ground"], stiffness = 1e12 }}
+s = {{ type = "slider", between = ["x", "ground"], coulomb = {:.17g} }}
+[nodes]
+x = {{ position = 0.001 }}
+[simulate]
+stop = 1e5
+record = ["x.velocity", "s.force"]
+output = {{ points = 3 }}
+)", coulomb));
+    CHECK_EQ(rows["x.velocity"][2], 0);
+    CHECK(std::abs(rows["s.force"][2]) <= coulomb);
   }
 }
 

@@ -94,6 +94,14 @@ TEST_CASE("a fall and rise within a long step is found, before another event but
     CHECK(std::abs(*before.time - (place - 1e-4)) <= 1e-12);
     CHECK(before.fired == std::vector<int>{1, 0});
   }
+  // Just before the event, and nearer to a place at which the function is guessed behind it.
+  for (const double share : {0.43, 0.46, 0.48, 0.49}) {
+    const double place = 1.1 + 0.8 * share;
+    const Found close = find({dips_at(place), [=](double t) { return place + 0.0032 - t; }}, 1.1, 1.9, true);
+    REQUIRE(close.time);
+    CHECK(std::abs(*close.time - (place - 1e-4)) <= 1e-12);
+    CHECK(close.fired == std::vector<int>{1, 0});
+  }
   const Found behind = find({dips_at(1.5), falls}, 1.1, 1.9, true), alone = find({falls}, 1.1, 1.9, true);
   REQUIRE(behind.time);
   CHECK(std::abs(*behind.time - zero) <= 1e-12);
