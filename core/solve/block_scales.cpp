@@ -27,6 +27,7 @@ void BlockScales::find(Dae& dae, const Dae::View& view, const Magnitudes& seen, 
   for (std::size_t k = 0; k < most_.size(); ++k) most_[k].assign(seen.unknown[k].size(), std::numeric_limits<double>::infinity());
   BlockSignals& blocks = dae.inputs().blocks();
   for (std::size_t b = 0; b < output_seen_.size(); ++b) output_seen_[b] = std::max(output_seen_[b], std::abs(dae.inputs().blocks().out(static_cast<int>(b)).value));
+  const double least_share = std::max(numerics::block_input_share, numerics::block_input_ulps * std::numeric_limits<double>::epsilon() / local);
   gains_.for_each([&](int block, BlockGains::Of of, int index, double gain, double together) {
     // Divided by `together` twice: the error of each quantity also contains the errors of the others.
     const double allowed = output_seen_[at(block)] / (together * together * gain);
@@ -35,7 +36,7 @@ void BlockScales::find(Dae& dae, const Dae::View& view, const Magnitudes& seen, 
     // Nodes that sticking sliders join have one velocity, but a position each.
     const std::size_t k = at(state ? blocks.state_of(index) : of == BlockGains::Of::position ? index : dae.structure().rigid[at(index)]);
     if (k >= most_[sort].size()) return;
-    const double least = std::max(numerics::block_input_share, numerics::block_input_ulps * std::numeric_limits<double>::epsilon() / local) * seen.unknown[sort][k];
+    const double least = least_share * seen.unknown[sort][k];
     // While a state has only begun to grow, the output behind it is as small as the state.
     if (allowed > 0) most_[sort][k] = std::min(most_[sort][k], std::max({allowed, least, state ? foreseen[sort][k] / (together * together) : 0.0}));
   });
@@ -45,8 +46,8 @@ void BlockScales::find(Dae& dae, const Dae::View& view, const Magnitudes& seen, 
     const int state = motion.block >= 0 ? blocks.state_of(motion.block) : -1;
     const double place = seen.unknown[static_cast<std::size_t>(Sort::position)][at(motion.node)];
     if (state < 0 || !(place > 0)) continue;
-    double& most = most_[static_cast<std::size_t>(Sort::block)][at(state)];
-    most = std::min(most, std::max(place / length, foreseen[static_cast<std::size_t>(Sort::block)][at(state)]));
+    const auto of_state = [&](auto& values) -> auto& { return values[static_cast<std::size_t>(Sort::block)][at(state)]; };
+    of_state(most_) = std::min(of_state(most_), std::max({place / length, least_share * of_state(seen.unknown), of_state(foreseen)}));
   }
   if (!network_.blocks.sensors.empty()) find_behind_forces(dae, view, largest_force);
 }

@@ -127,7 +127,7 @@ stop   = {}
 record = ["base.position"]
 output = {{ points = 801 }}
 )toml", a, w, longer);
-  for (const double accuracy : {1e-3, 1e-5, 1e-6}) {
+  for (const double accuracy : {1e-3, 1e-6, 1e-9}) {
     CAPTURE(accuracy);
     const RunTable rows = simulate(toml, accuracy);
     double worst = 0;
