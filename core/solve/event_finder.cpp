@@ -87,7 +87,7 @@ EventFinder::Seen EventFinder::look_at(double t) const {
 /// Times before `end` at which some function comes near 0.
 std::vector<double> EventFinder::find_dips(const std::vector<Seen>& seen, double end) const {
   static constexpr auto shares = lagrange();
-  const double begin = seen.front().time, apart = (seen.back().time - begin) / (parts * finer), near = std::min(apart, (end - begin) / 2);
+  const double begin = seen.front().time, apart = (seen.back().time - begin) / (parts * finer), reach = std::min(apart, (end - begin) / 2);
   std::vector<double> dips;
   for (std::size_t f = 0; f < fired_.size(); ++f) {
     std::array<double, parts + 1> g;
@@ -103,7 +103,7 @@ std::vector<double> EventFinder::find_dips(const std::vector<Seen>& seen, double
       if (value < lowest) lowest = value, place = p;
     }
     if (lowest > numerics::arc_dip * (*most - *least)) continue;
-    const std::optional<double> t = minimum_near(f, begin + apart * static_cast<double>(place), begin, end, near);
+    const std::optional<double> t = minimum_near(f, begin + apart * static_cast<double>(place), begin, end, reach);
     if (t) dips.push_back(*t);
   }
   return dips;
@@ -161,9 +161,9 @@ double EventFinder::before_end(double end, double later) const {
 }
 
 /// Finds the time just behind the first event, by the Illinois variant of the rule of false position (Dowell and Jarratt, BIT 11 (1971)
-/// 168), applied to the function that falls first. Near a simple zero the same end moves twice in a row at most. Where it moves more often, a function
-/// hardly changes before it falls, as where sliders that share a load are at their bounds and the last of them is overloaded: from then on
-/// secants through points behind the event are tried, and the interval is halved where they do not halve it. So each two rounds halve it at least.
+/// 168), applied to the function that falls first. Near a simple zero the same end moves twice in a row at most. If it moves more often, a function hardly
+/// changes before it falls. So it is with sliders that share a load: all but one stay at their bounds until the last one is overloaded. From then on
+/// secants through points behind the event are tried. A round that does not halve the interval is followed by one that does.
 double EventFinder::locate(double begin, double end) {
   const double near = numerics::event_time_ulps * std::numeric_limits<double>::epsilon() * (std::abs(end) + (end - begin));
   for (std::size_t k = 0; k < left_.size(); ++k) {
@@ -183,7 +183,7 @@ double EventFinder::locate(double begin, double end) {
     const double length = end - begin, middle = begin + length / 2;
     double guess = by_secants ? middle : end - share_to_zero(weight) * length;
     if (by_secants && !halve && later > end) guess = before_end(end, later);
-    // The last secant led to the beginning, so the zero is near it: the geometric mean of what the interval is and of what it is to be.
+    // The last secant led to the beginning, so the zero is near it, but how near is unknown: half way, in the logarithm, to the least distance.
     if (!(guess > begin)) guess = begin + std::sqrt(near * length);
     const double t = std::clamp(guess, begin + near / 2, end - near / 2);
     look_(t, between_);

@@ -30,7 +30,7 @@ void check(const Tally& tally, std::size_t count) {
 }  // namespace
 
 TEST_CASE("wirings agree with an independent integrator") {
-  constexpr int count = 220;
+  constexpr int count = 330;
   const Tally tally = judge_all(sample(count, seed), 1, [](const Wiring& wiring) { return judge(wiring); });
   check(tally, count);
   CHECK_GT(tally.of(Verdict::refused), 0);
