@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <map>
 #include <optional>
@@ -27,11 +28,13 @@ struct Recorded {
   EventTimes events;
 };
 
-/// The runs: with the value of the scene, and with a value one or two steps away.
-enum Changed : std::size_t { base, up, up_twice, down, down_twice, changes };
+/// The runs: with the value of the scene, and with a value up to three steps away to either side.
+constexpr std::size_t farthest = 3, changes = 1 + 2 * farthest, base = 0;
 using Recordings = std::array<Recorded, changes>;
 
-int steps_of(std::size_t run) { return run == up ? 1 : run == up_twice ? 2 : run == down ? -1 : run == down_twice ? -2 : 0; }
+constexpr std::size_t up(std::size_t steps) { return steps; }
+constexpr std::size_t down(std::size_t steps) { return farthest + steps; }
+double steps_of(std::size_t run) { return run <= farthest ? static_cast<double>(run) : -static_cast<double>(run - farthest); }
 
 /// The event of one run that corresponds to that of another; the runs in which it does not happen have it at infinity.
 struct Shift {
@@ -56,7 +59,9 @@ std::vector<Shift> shifts(const Recordings& recordings) {
         const auto found = recordings[r].events.find(event);
         shift.time[r] = found != recordings[r].events.end() && k < found->second.size() ? found->second[k] : infinity;
       }
-      std::tie(shift.first, shift.last) = std::minmax({shift.time[0], shift.time[1], shift.time[2], shift.time[3], shift.time[4]});
+      const auto [first, last] = std::minmax_element(shift.time.begin(), shift.time.end());
+      shift.first = *first;
+      shift.last = *last;
       if (shift.first < shift.last) result.push_back(shift);
     }
   }
@@ -64,20 +69,23 @@ std::vector<Shift> shifts(const Recordings& recordings) {
   return result;
 }
 
-/// A derivative, and what the next smaller order differs from it.
+/// A derivative, and what the next lower order differs from it: at least its error, where the change is small enough.
 struct DifferenceQuotient {
-  double value = 0, left = 0;
+  double value = 0, error = 0;
 };
 
+/// To the sixth order.
 DifferenceQuotient central(const std::array<double, changes>& r, double change) {
-  const double near = (r[up] - r[down]) / (2 * change), far = (r[up_twice] - r[down_twice]) / (4 * change);
-  return {(4 * near - far) / 3, (near - far) / 3};
+  const auto slope = [&](std::size_t steps) { return (r[up(steps)] - r[down(steps)]) / (2 * static_cast<double>(steps) * change); };
+  const double fourth = (4 * slope(1) - slope(2)) / 3, sixth = (15 * slope(1) - 6 * slope(2) + slope(3)) / 10;
+  return {sixth, std::abs(sixth - fourth)};
 }
 
-/// From the runs on one side alone, to the second order.
-DifferenceQuotient one_sided(const std::array<double, changes>& r, std::size_t once, std::size_t twice, double change) {
-  const double near = (r[once] - r[base]) / change, far = (r[twice] - r[base]) / (2 * change);
-  return {2 * near - far, near - far};
+/// From the runs on one side alone, to the third order. `run` is `up` or `down`, `change` that of one step.
+DifferenceQuotient one_sided(const std::array<double, changes>& r, std::size_t (&run)(std::size_t), double change) {
+  const auto slope = [&](std::size_t steps) { return (r[run(steps)] - r[base]) / (static_cast<double>(steps) * change); };
+  const double second = 2 * slope(1) - slope(2), third = 3 * slope(1) - 3 * slope(2) + slope(3);
+  return {third, std::abs(third - second)};
 }
 
 /// In which runs a row is on the side of all events on which it is in the run of the scene itself. Rows are asked for in the order of time.
@@ -108,7 +116,8 @@ class Comparison {
     error_ = own.arc_steps == own.steps ? numerics::sensitivity_arc_error : numerics::sensitivity_tolerance;
   }
 
-  /// The error of the fourth order shrinks with the fourth power of the change, and the share of the runs' errors grows with its inverse.
+  /// The error of the fourth order, which bounds that of the sixth, shrinks with the fourth power of the change. The share of the runs' errors
+  /// grows with its inverse.
   Sensitivity find() {
     double change = std::pow(error_, 1.0 / 5);
     std::optional<Sensitivity> best;
@@ -204,7 +213,7 @@ class Comparison {
     found.change = change;
     found.rows = RowStore({records});
     found.records.resize(records);
-    std::vector<double> left(records, 0), left_of_one_side(records, 0), scale(records, 0), values(records);
+    std::vector<double> truncation(records, 0), scale(records, 0), values(records);
     Sides sides(shifts(recordings_));
     RowsTogether rows(recordings_);
     bool open = false;
@@ -213,7 +222,7 @@ class Comparison {
         throw SimulationError(fmt::format("`{}` changes the times of the rows: name a value of an element, a signal or a parameter that does not", name_));
       if (open) continue;
       const std::array<bool, changes> same = sides.at(rows.time());
-      const bool above = same[up] && same[up_twice], below = same[down] && same[down_twice];
+      const bool above = std::all_of(&same[up(1)], &same[up(farthest)] + 1, std::identity()), below = std::all_of(&same[down(1)], &same[down(farthest)] + 1, std::identity());
       if (!above && !below) {
         open_ = rows.time();
         open = true;
@@ -221,11 +230,10 @@ class Comparison {
       }
       for (std::size_t k = 0; k < records; ++k) {
         const std::array<double, changes> r = rows.values(k);
-        const DifferenceQuotient d = above && below ? central(r, change) : above ? one_sided(r, up, up_twice, change) : one_sided(r, down, down_twice, -change);
+        const DifferenceQuotient d = above && below ? central(r, change) : above ? one_sided(r, up, change) : one_sided(r, down, -change);
         values[k] = d.value;
         scale[k] = std::max(scale[k], std::abs(r[base]));
-        double& most = above && below ? left[k] : left_of_one_side[k];
-        most = std::max(most, std::abs(d.left));
+        truncation[k] = std::max(truncation[k], d.error);
         if (std::abs(d.value) > found.records[k].largest) found.records[k] = {std::abs(d.value), rows.time(), 0};
       }
       found.rows.add(rows.time(), values);
@@ -233,14 +241,12 @@ class Comparison {
     if (open) return {};
     for (std::size_t k = 0; k < records; ++k) {
       Sensitivity::Record& record = found.records[k];
-      // For an exponential function the relative errors are x^2/3! of the second order and x^4/30 of the fourth; of one side alone x/2 of the first order and
-      // x^2/3 of the second.
-      const double two_sides = 6 * 6 * left[k] * left[k] / 30, one_side = 2 * 2 * left_of_one_side[k] * left_of_one_side[k] / 3;
-      const double noise = error_ * scale[k] / change, truncation = record.largest > 0 ? std::max(two_sides, one_side) / record.largest : 0;
-      record.error = noise + truncation;
-      if (record.largest <= noise) continue;
-      result.truncation = std::max(result.truncation, truncation / record.largest);
-      result.noise = std::max(result.noise, noise / record.largest);
+      const double noise = error_ * scale[k] / change;
+      record.error = noise + truncation[k];
+      const double size = std::max(record.largest, scale[k]);
+      if (size == 0) continue;
+      result.truncation = std::max(result.truncation, truncation[k] / size);
+      result.noise = std::max(result.noise, noise / size);
     }
     return result;
   }

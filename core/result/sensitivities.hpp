@@ -26,8 +26,8 @@ struct Sensitivity {
 /// The scene with the value multiplied by a factor. Throws what reading throws.
 using MultipliedScene = std::function<Scene(double factor)>;
 
-/// Compares runs with the value changed by one and two small steps to either side, to the fourth order. The step is chosen so that neither
-/// its square nor the errors of the runs matter. A row between an event of one run and the same event of another is compared on its own
+/// Compares runs with the value changed by one, two and three small steps to either side, to the sixth order. The step is chosen so that neither
+/// its powers nor the errors of the runs matter. A row between an event of one run and the same event of another is compared on its own
 /// side of the event: the derivative is that of the motion between two events, and jumps with it. `name` is that of the value, for messages. The
 /// settings `interrupt`, `threads` and `progress` apply to each run. Throws SimulationError like `run`, where a change of the value changes the times of the rows,
 /// and where a derivative does not exist because any change leads to other events on both sides.

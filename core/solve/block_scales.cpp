@@ -42,10 +42,11 @@ void BlockScales::find(Dae& dae, const Dae::View& view, const Magnitudes& seen, 
   });
   // Nothing restores a given motion: an error of its velocity moves its position until the run ends.
   const double length = network_.scene->stop - network_.scene->start;
+  const std::vector<double>& places = seen.unknown[static_cast<std::size_t>(Sort::position)];
   for (const Network::Motion& motion : network_.motions) {
     const int state = motion.block >= 0 ? blocks.state_of(motion.block) : -1;
-    const double place = seen.unknown[static_cast<std::size_t>(Sort::position)][at(motion.node)];
-    if (state < 0 || !(place > 0)) continue;
+    const double place = state >= 0 && !places.empty() ? places[at(motion.node)] : 0;
+    if (!(place > 0)) continue;
     const auto of_state = [&](auto& values) -> auto& { return values[static_cast<std::size_t>(Sort::block)][at(state)]; };
     of_state(most_) = std::min(of_state(most_), std::max({place / length, least_share * of_state(seen.unknown), of_state(foreseen)}));
   }
