@@ -49,7 +49,7 @@ class DeflectionBatch {
   virtual void linearise(const double* p, double* f, double* df, double* c, double* dc) const = 0;
 
   /// For a law with contacts: the side of element i that is in contact, -1, 1, or 0 for none. Absent for other laws. A mass may
-  /// touch a side and leave it within one step.
+  /// touch a side and leave it within one step. Event 0 is that of side 1, event 1 that of side -1.
   virtual std::optional<int> contact(std::size_t) const { return {}; }
 
   /// False if c is identically 0 for element i. Its deflection is then the relative displacement of its ends plus a

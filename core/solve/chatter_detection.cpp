@@ -95,8 +95,17 @@ bool ChatterDetection::endless(double t, const std::vector<int>& causes, double 
   const auto sum = [](auto from, auto to) { return std::accumulate(from, to, 0.0, [](double length, const Pause& pause) { return length + pause.length; }); };
   const auto middle = pauses_.begin() + numerics::chatter_events / 2;
   const double first = sum(pauses_.begin(), middle), second = sum(middle, pauses_.end());
+  if (second == 0) {  // impacts at one time, which may lose their speeds
+    pauses_.clear();
+    return ++timeless_ >= numerics::endless_counts;
+  }
+  timeless_ = 0;
   // Where motion ends in infinitely many events, as that of a bouncing ball, each comes sooner by the same share.
-  return second >= first && left > (first + second) * numerics::endless_counts / numerics::endless_time;
+  if (second < first) return false;
+  // They come later by the same share from here on.
+  const double growth = first > 0 ? second / first : std::numeric_limits<double>::infinity(), more = left * (growth - 1) / second;
+  const double halves = more > 0 ? std::log1p(more) / std::log(growth) : left / second;
+  return halves / 2 > numerics::endless_counts / numerics::endless_time;
 }
 
 double ChatterDetection::endless_time() const {

@@ -11,7 +11,7 @@
 namespace rheonet {
 
 DeadBands::DeadBands(const Network& network, const SeparatedParts& parts, const Magnitudes& seen, const UnknownRoundoff& roundoff, const StepAccuracy& accuracy)
-    : network_(network), parts_(parts), seen_(seen), roundoff_(roundoff), accuracy_(accuracy), slider_(network.sliders.size(), 0), slip_(slider_) {}
+    : network_(network), parts_(parts), seen_(seen), roundoff_(roundoff), accuracy_(accuracy), slider_(network.sliders.size(), 0), slip_(slider_), gap_(slider_) {}
 
 void DeadBands::attach(Dae& dae) {
   dae_ = &dae;
@@ -47,6 +47,7 @@ void DeadBands::find(const std::vector<double>& tolerance, const std::vector<dou
     slider_[k] = of_velocity(slider_given_[k] != 0, seen_.slide[k], b, std::max(roundoff_.slide(k), roundoff_.tied(b)));
   }
   find_slips(tolerance, slope);
+  find_gaps(tolerance);
 }
 
 double DeadBands::force(int rate) const {
@@ -113,6 +114,16 @@ void DeadBands::find_slips(const std::vector<double>& tolerance, const std::vect
     const double bound = largest_force(static_cast<int>(k));
     const double error = structure.stuck[k] ? std::max(error_at(b.a), error_at(b.b)) : 0;
     slip_[k] = bound > 0 ? std::min(error, numerics::stick_dead_band * accuracy_.local() * bound) : error;
+  }
+}
+
+void DeadBands::find_gaps(const std::vector<double>& tolerance) {
+  for (std::size_t k = 0; k < gap_.size(); ++k) {
+    if (!network_.sliders[k].contact) continue;
+    const auto of = [&](int unknown) { return unknown < 0 ? 0 : tolerance[at(unknown)]; };
+    const auto& [element, a, b] = network_.sliders[k].branch;
+    const int own = dae_->indices().deflection[at(network_.sliders[k].gauge)];
+    gap_[k] = own >= 0 ? of(own) : of(dae_->indices().position[at(a)]) + of(dae_->indices().position[at(b)]);
   }
 }
 

@@ -53,9 +53,10 @@ std::vector<char> at_once(System& system, double t, const std::vector<double>& y
   system.integrator.interpolate(begin, 1, yp_before);
   system.events.evaluate(begin, y_before.data(), yp_before.data(), before.data());
   system.events.evaluate(t, y.data(), yp.data(), now.data());
+  const Dae::View& view = system.dae.view_again(t, y.data(), yp.data());
   for (std::size_t k = 0; k < found.size(); ++k) {
     const double slope = (now[k] - before[k]) / (t - begin);
-    if (system.events[k].which >= 0 && slope < 0 && now[k] + slope * time_roundoff(t) <= 0) result[k] = 1;
+    if (system.events[k].which >= 0 && slope < 0 && now[k] + slope * time_roundoff(t) <= 0 && !system.events.parts(k, view)) result[k] = 1;
   }
   return result;
 }

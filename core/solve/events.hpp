@@ -64,6 +64,9 @@ class NetworkEvents final : public EventFunctions {
   /// Whether such a slider stops within this time [s].
   bool stops_within(int slider, double time, const Dae::View& view) const;
 
+  /// True for the event of a rigid stop whose ends do not approach each other there, but for their errors.
+  bool parts(std::size_t k, const Dae::View& view) const;
+
   int count() const override { return static_cast<int>(events_.size()); }
   void evaluate(double t, const double* y, const double* yp, double* g) override;
   double band(int k) const override;
@@ -78,14 +81,17 @@ class NetworkEvents final : public EventFunctions {
     int branch;
     int beside = -1;  ///< pseudoplastic rate branch in parallel (infinite slope at rest), -1
     double sign = 1;  ///< -1 if that branch has the opposite direction
+    int stop = -1;    ///< rigid stop (slider) whose displacement it measures, -1
   };
   /// A velocity for an event function, and its dead band [m/s].
   struct Flow { double velocity, dead_band; };
   Flow flow(const Watched& law, const Dae::View& view) const;
   void find_pseudoplastic();
+  void find_gauges();
   const Dae::View& resolved(double t, const double* y, const double* yp);
   const Dae::View& resolved(double t, const double* y, bool projected);
   void find_returning();
+  void law_functions(const Watched& law, const Dae::View& view, double* g) const;
   /// The event functions of a law; infinite beyond the last.
   std::array<double, numerics::held_law_events> held_functions(const Watched& law, const Dae::View& view) const;
   double slider_function(int slider, const Dae::View& view) const;

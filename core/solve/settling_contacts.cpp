@@ -15,7 +15,8 @@ std::vector<int> SettlingContacts::find(System& system, const Tolerances& tolera
                                         const std::vector<double>& yp) {
   const Network& network = system.dae.network();
   std::vector<int> result;
-  double since = t;  // the earliest impact before those of now whose hops end
+  bool series = false;  // of hops that end
+  double since = t;     // its earliest impact before those of now
   for (std::size_t k = 0; k < network.sliders.size(); ++k) {
     const Network::Slider& slider = network.sliders[k];
     const int side = slider.contact && !system.structure.stuck[k] ? network.contact_of(slider) : 0;
@@ -24,22 +25,25 @@ std::vector<int> SettlingContacts::find(System& system, const Tolerances& tolera
     const auto closing = [&](const std::vector<double>& of_nodes) { return side * (of_nodes[at(slider.branch.a)] - of_nodes[at(slider.branch.b)]); };
     const double speed = closing(view.velocity), pressing = closing(view.acceleration), e = slider.contact->restitution;
     if (!(speed > 0)) continue;
-    const double hop = last_[k].speed > 0 ? t - last_[k].t : 0;
-    const Impact before = std::exchange(last_[k], {t, speed, hop});
-    const bool measured = before.hop > 0;
-    const double kept = measured ? std::max(speed / before.speed, hop / before.hop) : e;
+    const double hop = t - last_[k].t;
+    const bool timeless = last_[k].count > 0 && hop <= numerics::timeless_hop * time_roundoff(length_);
+    const Impact before = std::exchange(last_[k], {t, speed, hop, last_[k].count + 1, timeless ? last_[k].timeless + 1 : 0});
+    const bool measured = before.count > 1;
+    const double kept = measured ? std::max(speed / before.speed, timeless ? 0 : hop / before.hop) : e;
     const double next = measured ? kept * hop : pressing > 0 ? 2 * e * speed / pressing : std::numeric_limits<double>::infinity();
     const double allowed = numerics::settled_hops * accuracy_;
     const bool ends = kept < 1 && kept * speed <= allowed * tolerances.seen().flow[at(slider.gauge)] && next / (1 - kept) <= allowed * length_;
     const double lost = e < 1 ? (1 - e) * e * speed : speed;
     const bool unresolved = lost <= pressing * time_roundoff(length_);
-    if (!ends && !unresolved) continue;
+    const bool over = kept < 1 && last_[k].timeless >= numerics::timeless_hops;
+    if (!ends && !unresolved && !over) continue;
     if (measured || e > 0) result.push_back(static_cast<int>(k));
     if (measured) since = std::min(since, before.t);
+    series = series || measured;
   }
   // Contacts that the same series of impacts opens and closes would hop again.
-  for (std::size_t k = 0; k < network.sliders.size() && since < t; ++k) {
-    if (system.structure.stuck[k] && last_[k].hop > 0 && last_[k].t >= since) result.push_back(static_cast<int>(k));
+  for (std::size_t k = 0; k < network.sliders.size() && series; ++k) {
+    if (system.structure.stuck[k] && last_[k].count > 1 && last_[k].t >= since) result.push_back(static_cast<int>(k));
   }
   return result;
 }

@@ -13,7 +13,8 @@ namespace rheonet {
 /// the contact, and the remaining time relative to the length of the run. The share r is measured over the last two hops, whatever
 /// takes the energy: the restitution, friction beside the stop, or a second mass that is dragged along. Before there are two, it is the
 /// restitution e, and the next hop takes 2 w/a, where a is the acceleration that presses on the contact. A contact also rests if
-/// the next hop loses less speed than the round-off of its end gives back: the hops would not become shorter.
+/// the next hop loses less speed than the round-off of its end gives back: the hops would not become shorter. And it rests once time has not
+/// resolved several hops in a row: between bodies that touch, hops may shorten much faster than speeds.
 class SettlingContacts {
  public:
   SettlingContacts(const Network& network, double accuracy, double length) : accuracy_(accuracy), length_(length), last_(network.sliders.size()) {}
@@ -29,8 +30,10 @@ class SettlingContacts {
  private:
   struct Impact {
     double t = 0;      ///< [s]
-    double speed = 0;  ///< of closing [m/s]; 0: none yet
-    double hop = 0;    ///< time since the impact before [s]; 0: none yet
+    double speed = 0;  ///< of closing [m/s]
+    double hop = 0;    ///< time since the impact before, if there was one [s]
+    int count = 0;     ///< of impacts up to here
+    int timeless = 0;  ///< of the last hops, how many in a row time has not resolved
   };
 
   double accuracy_, length_;  ///< [1], [s]

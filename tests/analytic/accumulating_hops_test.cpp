@@ -111,4 +111,88 @@ record = ["a.position", "a.velocity", "b.velocity"]
   }
 }
 
+// Two bodies in a row run into a wall, and a force pulls back the rear one, so that they part by an amount of second order in time. The gaps
+// then shrink as their squares: after a few impacts time does not resolve the hops, while the speeds are still considerable. The limit is rest.
+TEST_CASE("accumulating hops: a body that another one meets in plastic contact in front of a wall") {
+  for (const double rear : {5.3, 47.0}) {
+    for (const double e : {0.13, 0.6, 0.9}) {
+      const double front = 0.93, v = 1.1, pull = 1.7, gap = 0.011, wall = 0.043;
+      const long double a = -pull / rear;
+      long double x0 = 0, x1 = 0, v0 = v, v1 = v, t = 0;
+      for (int cycle = 0; cycle < 7; ++cycle) {
+        const long double there = (wall - x1) / v1;
+        x0 += v0 * there + a * there * there / 2;
+        v0 += a * there;
+        x1 = wall;
+        v1 *= -e;
+        const long double apart = gap - (x0 - x1), closing = v0 - v1, back = 2 * apart / (closing + std::sqrt(closing * closing + 2 * a * apart));
+        x0 += v0 * back + a * back * back / 2;
+        v0 += a * back;
+        x1 += v1 * back;
+        v0 = v1 = (rear * v0 + front * v1) / (rear + front);
+        t += there + back;
+      }
+      const double rest = static_cast<double>(t), stop = 1.3;
+      for (const char* method : {"exact", "ida"}) {
+        for (const double accuracy : {1e-3, 1e-6, 1e-9}) {
+          CAPTURE(rear);
+          CAPTURE(e);
+          CAPTURE(method);
+          CAPTURE(accuracy);
+          const RunTable rows = simulate(fmt::format(R"(
+[elements]
+m0 = {{ type = "mass", at = "n0", mass = {} }}
+m1 = {{ type = "mass", at = "n1", mass = {} }}
+pull = {{ type = "force", at = "n0", force = {} }}
+g0 = {{ type = "stop", between = ["n0", "n1"], upper = {}, stiffness = "inf" }}
+wall = {{ type = "stop", between = ["n1", "ground"], upper = {}, stiffness = "inf", restitution = {} }}
+[nodes]
+n0 = {{ velocity = {} }}
+n1 = {{ velocity = {} }}
+[simulate]
+stop = {}
+method = "{}"
+record = ["n0.position", "n1.position"]
+)", rear, front, -pull, gap, wall, e, v, v, stop, method), accuracy);
+          const double off = std::abs(rows["n0.position"].back() - (wall + gap - pull / rear * (stop - rest) * (stop - rest) / 2));
+          CHECK_LE(off, std::max(accuracy, 1e-12) * rows.scale("n0.position"));
+          CHECK_LE(std::abs(rows["n1.position"].back() - wall), 1e-12 * wall);
+        }
+      }
+    }
+  }
+}
+
+// The middle body is met by the first one again and again, while friction holds the others together: they all go on together. IDA at 1e-11.
+TEST_CASE("accumulating hops: four bodies in a row that go on together") {
+  for (const char* method : {"exact", "ida"}) {
+    for (const double accuracy : {1e-4, 1e-6, 1e-9}) {
+      CAPTURE(method);
+      CAPTURE(accuracy);
+      const RunTable rows = simulate(fmt::format(R"(
+[elements]
+m0 = {{ type = "mass", at = "n0", mass = 1 }}
+m1 = {{ type = "mass", at = "n1", mass = 0.5 }}
+m2 = {{ type = "mass", at = "n2", mass = 2 }}
+m3 = {{ type = "mass", at = "n3", mass = 1 }}
+d3 = {{ type = "dashpot", between = ["n3", "ground"], damping = 1 }}
+g0 = {{ type = "stop", between = ["n0", "n1"], upper = 0, stiffness = "inf", restitution = 0.3 }}
+g1 = {{ type = "stop", between = ["n1", "n2"], upper = 0, stiffness = "inf" }}
+g2 = {{ type = "stop", between = ["n2", "n3"], upper = 0, stiffness = "inf" }}
+c2 = {{ type = "slider", between = ["n2", "n3"], coulomb = 1 }}
+wall = {{ type = "stop", between = ["n3", "ground"], upper = 0.03, stiffness = "inf", restitution = 1 }}
+[nodes]
+n0 = {{ velocity = 1.96 }}
+[simulate]
+stop = 2.5
+method = "{}"
+record = ["n0.velocity", "n1.velocity", "n2.position"]
+)", method), accuracy);
+      CHECK_LE(std::abs(rows["n0.velocity"].back() + 0.43129517340650914), accuracy * 1.96);
+      CHECK_LE(std::abs(rows["n1.velocity"].back() + 0.43129517340650914), accuracy * 1.96);
+      CHECK_LE(std::abs(rows["n2.position"].back() + 0.7127632844320958), accuracy);
+    }
+  }
+}
+
 }  // namespace rheonet::test::accumulating_hops_test

@@ -17,7 +17,7 @@
 #include "core/result/sensitivities.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/simulate.hpp"
-#include "tests/support/slider_network.hpp"
+#include "tests/support/piecewise_linear_network.hpp"
 #include "tests/support/stored_rows.hpp"
 
 namespace rheonet::test::generated_sensitivities_test {
@@ -27,26 +27,26 @@ namespace {
 constexpr double stop = 4;
 constexpr int points = 81;
 
-SliderNetwork random_network(Random& random) {
-  SliderNetwork network;
+PiecewiseLinearNetwork random_network(Random& random) {
+  PiecewiseLinearNetwork network;
   const int n = 1 + random.below(4);
   const bool from_rest = random.below(2) == 0;
   network.frequency = random.around(0.8, 2);
   network.drive_velocity = random.sign() * random.around(0.3, 3);
-  const auto other = [&](int a) { return a == 0 ? (random.below(2) == 0 ? SliderNetwork::drive : SliderNetwork::ground) : random.below(a); };
+  const auto other = [&](int a) { return a == 0 ? (random.below(2) == 0 ? PiecewiseLinearNetwork::drive : PiecewiseLinearNetwork::ground) : random.below(a); };
   for (int i = 0; i < n; ++i) {
     network.masses.push_back({random.around(1, 3), from_rest ? 0 : random.uniform(-2, 2), random.uniform(-1, 1), random.around(2, 3)});
     network.springs.push_back({i, other(i), random.around(20, 4)});
   }
   for (int i = random.below(3); i > 0; --i) {
     const int a = random.below(n);
-    network.dashpots.push_back({a, random.below(2) == 0 ? SliderNetwork::ground : other(a), random.around(0.5, 4)});
+    network.dashpots.push_back({a, random.below(2) == 0 ? PiecewiseLinearNetwork::ground : other(a), random.around(0.5, 4)});
   }
   // At most one way of sliders from any node to another: ground and the drive count as one node, the last one.
   std::vector<int> group(static_cast<std::size_t>(n) + 1);
   for (std::size_t i = 0; i < group.size(); ++i) group[i] = static_cast<int>(i);
   for (int i = 1 + random.below(3); i > 0; --i) {
-    const int a = random.below(n), b = random.below(2) == 0 ? SliderNetwork::ground : other(a);
+    const int a = random.below(n), b = random.below(2) == 0 ? PiecewiseLinearNetwork::ground : other(a);
     const int mine = group[static_cast<std::size_t>(a)], its = group[b >= 0 ? static_cast<std::size_t>(b) : static_cast<std::size_t>(n)];
     if (mine == its) continue;
     std::replace(group.begin(), group.end(), mine, its);
@@ -58,24 +58,24 @@ SliderNetwork random_network(Random& random) {
 
 struct Value {
   std::string path;
-  std::function<long double&(SliderNetwork&)> of;
+  std::function<long double&(PiecewiseLinearNetwork&)> of;
 };
 
-std::vector<Value> values_of(const SliderNetwork& network) {
+std::vector<Value> values_of(const PiecewiseLinearNetwork& network) {
   std::vector<Value> values;
   for (std::size_t i = 0; i < network.masses.size(); ++i) {
-    values.push_back({fmt::format("m{}.mass", i), [i](SliderNetwork& n) -> long double& { return n.masses[i].mass; }});
-    values.push_back({fmt::format("f{}.force.sine", i), [i](SliderNetwork& n) -> long double& { return n.masses[i].amplitude; }});
-    values.push_back({fmt::format("f{}.force.offset", i), [i](SliderNetwork& n) -> long double& { return n.masses[i].force; }});
-    if (network.masses[i].velocity != 0) values.push_back({fmt::format("nodes.n{}.velocity", i), [i](SliderNetwork& n) -> long double& { return n.masses[i].velocity; }});
+    values.push_back({fmt::format("m{}.mass", i), [i](PiecewiseLinearNetwork& n) -> long double& { return n.masses[i].mass; }});
+    values.push_back({fmt::format("f{}.force.sine", i), [i](PiecewiseLinearNetwork& n) -> long double& { return n.masses[i].amplitude; }});
+    values.push_back({fmt::format("f{}.force.offset", i), [i](PiecewiseLinearNetwork& n) -> long double& { return n.masses[i].force; }});
+    if (network.masses[i].velocity != 0) values.push_back({fmt::format("nodes.n{}.velocity", i), [i](PiecewiseLinearNetwork& n) -> long double& { return n.masses[i].velocity; }});
   }
   for (std::size_t i = 0; i < network.springs.size(); ++i)
-    values.push_back({fmt::format("k{}.stiffness", i), [i](SliderNetwork& n) -> long double& { return n.springs[i].value; }});
+    values.push_back({fmt::format("k{}.stiffness", i), [i](PiecewiseLinearNetwork& n) -> long double& { return n.springs[i].value; }});
   for (std::size_t i = 0; i < network.dashpots.size(); ++i)
-    values.push_back({fmt::format("c{}.damping", i), [i](SliderNetwork& n) -> long double& { return n.dashpots[i].value; }});
+    values.push_back({fmt::format("c{}.damping", i), [i](PiecewiseLinearNetwork& n) -> long double& { return n.dashpots[i].value; }});
   for (std::size_t i = 0; i < network.sliders.size(); ++i) {
-    values.push_back({fmt::format("s{}.coulomb", i), [i](SliderNetwork& n) -> long double& { return n.sliders[i].sliding; }});
-    if (network.sliders[i].breakaway > 0) values.push_back({fmt::format("s{}.breakaway", i), [i](SliderNetwork& n) -> long double& { return n.sliders[i].breakaway; }});
+    values.push_back({fmt::format("s{}.coulomb", i), [i](PiecewiseLinearNetwork& n) -> long double& { return n.sliders[i].sliding; }});
+    if (network.sliders[i].breakaway > 0) values.push_back({fmt::format("s{}.breakaway", i), [i](PiecewiseLinearNetwork& n) -> long double& { return n.sliders[i].breakaway; }});
   }
   return values;
 }
@@ -93,11 +93,11 @@ struct Derivatives {
 };
 
 /// Nothing where a change of the value changes the events, where there are too few, or where the change is too large for a fourth order.
-std::optional<Derivatives> derivatives(const SliderNetwork& network, const Value& value) {
+std::optional<Derivatives> derivatives(const PiecewiseLinearNetwork& network, const Value& value) {
   constexpr long double change = 1e-5L;
   const std::vector<long double> times = row_times();
   const auto changed = [&](int steps) {
-    SliderNetwork other = network;
+    PiecewiseLinearNetwork other = network;
     value.of(other) *= 1 + steps * change;
     return move(other, times);
   };
@@ -132,14 +132,14 @@ std::optional<Derivatives> derivatives(const SliderNetwork& network, const Value
 
 /// The next network with a value for which the independent solution has derivatives.
 struct Case {
-  SliderNetwork network;
+  PiecewiseLinearNetwork network;
   Value value;
   Derivatives exact;
 };
 
 Case next_case(Random& random) {
   for (;;) {
-    SliderNetwork network = random_network(random);
+    PiecewiseLinearNetwork network = random_network(random);
     const std::vector<Value> values = values_of(network);
     Value value = values[static_cast<std::size_t>(random.below(static_cast<int>(values.size())))];
     try {
@@ -159,7 +159,7 @@ double largest_of(const std::vector<std::vector<double>>& rows, std::size_t reco
   return largest;
 }
 
-std::vector<std::vector<double>> records_of(const SliderNetwork& network) {
+std::vector<std::vector<double>> records_of(const PiecewiseLinearNetwork& network) {
   std::vector<std::vector<double>> rows;
   for (const std::vector<long double>& row : move(network, row_times()).rows) rows.emplace_back(row.begin(), row.end());
   return rows;

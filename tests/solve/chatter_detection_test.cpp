@@ -125,6 +125,21 @@ TEST_CASE("events that come ever sooner come to an end; events without a pause t
   for (int k = 0; k < many; ++k) CHECK_FALSE(rain.endless(k / 1000 + 1e-13 * (k % 1000), {k % 1000}, 1e3));
 }
 
+TEST_CASE("hops that grow longer come to an end; impacts at one time do if they are not too many") {
+  ChatterDetection slower(1, 1e-6), even(1, 1e-6), at_once(1, 1e-6);
+  double slow = 0;
+  int endless = 0;
+  for (int k = 0; k < 3 * numerics::chatter_events; ++k) {
+    CHECK_FALSE(slower.endless(slow += 1e-6 * std::pow(1.001, k), {0}, 1e5));
+    endless += even.endless(1e-6 * k, {0}, 1e5) ? 1 : 0;
+  }
+  CHECK(endless > 0);
+  int hits = 0;
+  while (!at_once.endless(0.3, {0}, 1)) ++hits;
+  CHECK(hits > 19 * numerics::chatter_events);
+  CHECK(hits <= 20 * numerics::chatter_events);
+}
+
 TEST_CASE("round-off that makes a slider at its bound slip at each ulp of time ends the run") {
   const std::string text = R"(domain = "rotation"
 [elements]

@@ -7,7 +7,7 @@ namespace rheonet::test {
 
 /// Masses that springs, dashpots and sliders join to each other, to ground and to a node that moves at a constant velocity. All of it is linear
 /// between the events of the sliders. No two sliders share the load between two nodes: each sticking force is determined.
-struct SliderNetwork {
+struct PiecewiseLinearNetwork {
   static constexpr int ground = -1, drive = -2;
   struct Branch { int a, b; long double value; };                 ///< of the mass a, and of another mass, `ground` or `drive`
   struct Slider {
@@ -36,9 +36,9 @@ struct SliderMotion {
 
 /// The motion at these times, in order, by Taylor series in long double: right to about 1e-16 of the range. Modes are found by trying all of
 /// them. Throws std::runtime_error where none fits, or several do.
-SliderMotion move(const SliderNetwork& network, const std::vector<long double>& times);
+SliderMotion move(const PiecewiseLinearNetwork& network, const std::vector<long double>& times);
 
 /// The same network as a netlist that records what `move` returns.
-std::string netlist_of(const SliderNetwork& network, double stop, int points, const std::string& method, double accuracy);
+std::string netlist_of(const PiecewiseLinearNetwork& network, double stop, int points, const std::string& method, double accuracy);
 
 }  // namespace rheonet::test

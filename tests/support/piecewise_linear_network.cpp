@@ -1,4 +1,4 @@
-#include "tests/support/slider_network.hpp"
+#include "tests/support/piecewise_linear_network.hpp"
 
 #include <fmt/format.h>
 
@@ -29,7 +29,7 @@ struct Linear {
 
 class SliderArcs {
  public:
-  explicit SliderArcs(const SliderNetwork& network) : net_(network), n_(static_cast<Eigen::Index>(network.masses.size())), y_(2 * n_ + 4), modes_(network.sliders.size(), 0) {
+  explicit SliderArcs(const PiecewiseLinearNetwork& network) : net_(network), n_(static_cast<Eigen::Index>(network.masses.size())), y_(2 * n_ + 4), modes_(network.sliders.size(), 0) {
     y_.setZero();
     for (Eigen::Index i = 0; i < n_; ++i) y_[n_ + i] = mass(i).velocity;
     y_[one()] = 1;
@@ -68,7 +68,7 @@ class SliderArcs {
     int direction;  ///< in which it begins to slip; 0 where it came to rest
   };
 
-  const SliderNetwork& net_;
+  const PiecewiseLinearNetwork& net_;
   Eigen::Index n_;
   Vector y_;
   std::vector<int> modes_;  ///< of each slider: -1 or 1 where it slips, 0 where it sticks
@@ -79,7 +79,7 @@ class SliderArcs {
   Eigen::Index time() const { return 2 * n_ + 1; }
   Eigen::Index sine() const { return 2 * n_ + 2; }
   Eigen::Index cosine() const { return 2 * n_ + 3; }
-  const SliderNetwork::Mass& mass(Eigen::Index i) const { return net_.masses[static_cast<std::size_t>(i)]; }
+  const PiecewiseLinearNetwork::Mass& mass(Eigen::Index i) const { return net_.masses[static_cast<std::size_t>(i)]; }
   long double angular() const { return 2 * std::numbers::pi_v<long double> * net_.frequency; }
 
   long double fastest() const {
@@ -100,7 +100,7 @@ class SliderArcs {
     const Eigen::Index first = velocity ? n_ : 0;
     row[first + a] = 1;
     if (b >= 0) row[first + b] -= 1;
-    if (b == SliderNetwork::drive) row[velocity ? one() : time()] = -net_.drive_velocity;
+    if (b == PiecewiseLinearNetwork::drive) row[velocity ? one() : time()] = -net_.drive_velocity;
     return row;
   }
 
@@ -228,22 +228,22 @@ class SliderArcs {
 };
 
 std::string node(int index) {
-  return index == SliderNetwork::ground ? "ground" : index == SliderNetwork::drive ? "drive" : fmt::format("n{}", index);
+  return index == PiecewiseLinearNetwork::ground ? "ground" : index == PiecewiseLinearNetwork::drive ? "drive" : fmt::format("n{}", index);
 }
 
 std::string number(long double value) { return fmt::format("{:.17g}", static_cast<double>(value)); }
 
 }  // namespace
 
-SliderMotion move(const SliderNetwork& network, const std::vector<long double>& times) { return SliderArcs(network).over(times); }
+SliderMotion move(const PiecewiseLinearNetwork& network, const std::vector<long double>& times) { return SliderArcs(network).over(times); }
 
-std::string netlist_of(const SliderNetwork& network, double stop, int points, const std::string& method, double accuracy) {
+std::string netlist_of(const PiecewiseLinearNetwork& network, double stop, int points, const std::string& method, double accuracy) {
   std::string elements = "[elements]\n", nodes = "[nodes]\n", records;
   const auto add = [&](const std::string& name, const std::string& type, int a, int b, const std::string& values) {
     elements += fmt::format("{} = {{ type = \"{}\", between = [\"{}\", \"{}\"], {} }}\n", name, type, node(a), node(b), values);
   };
   for (std::size_t i = 0; i < network.masses.size(); ++i) {
-    const SliderNetwork::Mass& mass = network.masses[i];
+    const PiecewiseLinearNetwork::Mass& mass = network.masses[i];
     elements += fmt::format("m{0} = {{ type = \"mass\", at = \"n{0}\", mass = {1} }}\n", i, number(mass.mass));
     elements += fmt::format("f{0} = {{ type = \"force\", at = \"n{0}\", force = {{ sine = {1}, frequency = {2}, offset = {3} }} }}\n", i, number(mass.amplitude),
                             number(network.frequency), number(mass.force));
@@ -253,19 +253,19 @@ std::string netlist_of(const SliderNetwork& network, double stop, int points, co
     for (std::size_t i = 0; i < network.masses.size(); ++i) records += fmt::format("{}\"n{}.{}\"", records.empty() ? "" : ", ", i, what);
   }
   bool driven = false;
-  const auto drives = [&](int end) { driven = driven || end == SliderNetwork::drive; };
+  const auto drives = [&](int end) { driven = driven || end == PiecewiseLinearNetwork::drive; };
   for (std::size_t s = 0; s < network.springs.size(); ++s) {
-    const SliderNetwork::Branch& spring = network.springs[s];
+    const PiecewiseLinearNetwork::Branch& spring = network.springs[s];
     add(fmt::format("k{}", s), "spring", spring.a, spring.b, "stiffness = " + number(spring.value));
     drives(spring.b);
   }
   for (std::size_t s = 0; s < network.dashpots.size(); ++s) {
-    const SliderNetwork::Branch& dashpot = network.dashpots[s];
+    const PiecewiseLinearNetwork::Branch& dashpot = network.dashpots[s];
     add(fmt::format("c{}", s), "dashpot", dashpot.a, dashpot.b, "damping = " + number(dashpot.value));
     drives(dashpot.b);
   }
   for (std::size_t s = 0; s < network.sliders.size(); ++s) {
-    const SliderNetwork::Slider& slider = network.sliders[s];
+    const PiecewiseLinearNetwork::Slider& slider = network.sliders[s];
     add(fmt::format("s{}", s), "slider", slider.a, slider.b, "coulomb = " + number(slider.sliding) + (slider.breakaway > 0 ? ", breakaway = " + number(slider.breakaway) : ""));
     drives(slider.b);
   }
