@@ -183,7 +183,7 @@ output = { points = 11 }
   for (const auto method : {Scene::Method::exact, Scene::Method::ida}) {
     Scene closes = scene("velocity = -0.1");
     closes.method = method;
-    CHECK(attempt(closes).refusal.find("no room left") != std::string::npos);
+    CHECK(attempt(closes).refusal.find("`left` is at its bound, and the motion `wall` demands that it goes on") != std::string::npos);
   }
 }
 
