@@ -28,7 +28,7 @@ struct Recorded {
   EventTimes events;
 };
 
-/// The runs: with the value of the scene, and with a value up to three steps away to either side.
+/// The runs: with the value of the scene, and with a value up to three steps away to either side, as the quotients below need them.
 constexpr std::size_t farthest = 3, changes = 1 + 2 * farthest, base = 0;
 using Recordings = std::array<Recorded, changes>;
 
@@ -222,7 +222,11 @@ class Comparison {
         throw SimulationError(fmt::format("`{}` changes the times of the rows: name a value of an element, a signal or a parameter that does not", name_));
       if (open) continue;
       const std::array<bool, changes> same = sides.at(rows.time());
-      const bool above = std::all_of(&same[up(1)], &same[up(farthest)] + 1, std::identity()), below = std::all_of(&same[down(1)], &same[down(farthest)] + 1, std::identity());
+      bool above = true, below = true;
+      for (std::size_t steps = 1; steps <= farthest; ++steps) {
+        above = above && same[up(steps)];
+        below = below && same[down(steps)];
+      }
       if (!above && !below) {
         open_ = rows.time();
         open = true;

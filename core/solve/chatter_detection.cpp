@@ -10,6 +10,7 @@
 
 #include "core/base/format_list.hpp"
 #include "core/base/numerics.hpp"
+#include "core/base/roundoff.hpp"
 
 namespace rheonet {
 
@@ -85,7 +86,7 @@ std::string ChatterDetection::describe(const Network& network, double t) const {
       several ? "their" : "its");
 }
 
-bool ChatterDetection::endless(double t, const std::vector<int>& causes, double left) {
+bool ChatterDetection::endless(double t, const std::vector<int>& causes, double left, bool impacts) {
   for (const int cause : causes) {
     const double before = std::exchange(last_event_[static_cast<std::size_t>(cause)], t);
     if (!std::isnan(before)) pauses_.push_back({t - before, cause});
@@ -95,11 +96,12 @@ bool ChatterDetection::endless(double t, const std::vector<int>& causes, double 
   const auto sum = [](auto from, auto to) { return std::accumulate(from, to, 0.0, [](double length, const Pause& pause) { return length + pause.length; }); };
   const auto middle = pauses_.begin() + numerics::chatter_events / 2;
   const double first = sum(pauses_.begin(), middle), second = sum(middle, pauses_.end());
-  if (second == 0) {  // impacts at one time, which may lose their speeds
+  if (impacts && second <= numerics::chatter_events / 2 * time_roundoff(t + left)) {  // at one time: they may lose their speeds
+    if (++counts_at_one_time_ >= numerics::endless_counts) return true;
     pauses_.clear();
-    return ++timeless_ >= numerics::endless_counts;
+    return false;
   }
-  timeless_ = 0;
+  counts_at_one_time_ = 0;
   // Where motion ends in infinitely many events, as that of a bouncing ball, each comes sooner by the same share.
   if (second < first) return false;
   // They come later by the same share from here on.

@@ -33,8 +33,8 @@ class ChatterDetection {
   std::string describe(const Network& network, double t) const;
 
   /// Counts the causes that fired at t, `left` [s] before the end of the run. True when the times from one event of a cause to its next do
-  /// not become shorter, or are all 0, and the run would never end, whatever the state does.
-  bool endless(double t, const std::vector<int>& causes, double left);
+  /// not become shorter, and the run would never end, whatever the state does. Impacts that time does not resolve have many more events.
+  bool endless(double t, const std::vector<int>& causes, double left, bool impacts = false);
   /// Sum of these times [s].
   double endless_time() const;
   /// A message that names the elements and a remedy. `squeezed`: they are rigid stops that hit.
@@ -67,7 +67,7 @@ class ChatterDetection {
     int cause;
   };
   std::deque<Pause> pauses_;        ///< the last ones, between two events of one cause
-  int timeless_ = 0;                ///< how often in a row all of these were 0
+  int counts_at_one_time_ = 0;      ///< how often in a row time did not resolve them
   std::vector<double> last_event_;  ///< of each cause: time of its last one [s]; NaN: there was none
   std::deque<double> failures_;  ///< times of the last failures [s]
   double reached_ = 0;           ///< time near which the last steps ended [s]

@@ -11,7 +11,7 @@
 namespace rheonet {
 
 DeadBands::DeadBands(const Network& network, const SeparatedParts& parts, const Magnitudes& seen, const UnknownRoundoff& roundoff, const StepAccuracy& accuracy)
-    : network_(network), parts_(parts), seen_(seen), roundoff_(roundoff), accuracy_(accuracy), slider_(network.sliders.size(), 0), slip_(slider_), gap_(slider_) {}
+    : network_(network), parts_(parts), seen_(seen), roundoff_(roundoff), accuracy_(accuracy), slider_(network.sliders.size(), 0), slip_(slider_), gap_(network.deflections.size(), 0) {}
 
 void DeadBands::attach(Dae& dae) {
   dae_ = &dae;
@@ -118,12 +118,12 @@ void DeadBands::find_slips(const std::vector<double>& tolerance, const std::vect
 }
 
 void DeadBands::find_gaps(const std::vector<double>& tolerance) {
-  for (std::size_t k = 0; k < gap_.size(); ++k) {
-    if (!network_.sliders[k].contact) continue;
-    const auto of = [&](int unknown) { return unknown < 0 ? 0 : tolerance[at(unknown)]; };
-    const auto& [element, a, b] = network_.sliders[k].branch;
-    const int own = dae_->indices().deflection[at(network_.sliders[k].gauge)];
-    gap_[k] = own >= 0 ? of(own) : of(dae_->indices().position[at(a)]) + of(dae_->indices().position[at(b)]);
+  const auto of = [&](int unknown) { return unknown < 0 ? 0 : tolerance[at(unknown)]; };
+  for (const Network::Slider& slider : network_.sliders) {
+    if (!slider.contact) continue;
+    const int own = dae_->indices().deflection[at(slider.gauge)];
+    const auto& position = dae_->indices().position;
+    gap_[at(slider.gauge)] = own >= 0 ? of(own) : of(position[at(slider.branch.a)]) + of(position[at(slider.branch.b)]);
   }
 }
 

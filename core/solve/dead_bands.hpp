@@ -30,8 +30,8 @@ class DeadBands {
   double largest_force(int slider) const;
   /// Force by which a sticking slider may exceed its bound because of the errors that steps are allowed [N].
   double slip(int slider) const { return slip_[static_cast<std::size_t>(slider)]; }
-  /// Displacement beyond its bound that the errors of steps may give a rigid stop [m].
-  double gap(int slider) const { return gap_[static_cast<std::size_t>(slider)]; }
+  /// Error of the displacement of a rigid stop, by the tolerances of what it is made of [m]. `gauge`: the branch that measures it.
+  double gap(int gauge) const { return gap_[static_cast<std::size_t>(gauge)]; }
   /// Velocity at which the force of a dilatant dashpot equals the error of the forces around it [m/s].
   double unfelt_dilatant(int rate) const;
 
@@ -49,7 +49,8 @@ class DeadBands {
   const StepAccuracy& accuracy_;
   Dae* dae_ = nullptr;
   std::vector<char> given_, slider_given_;  ///< For each branch: its velocity is a function of time alone.
-  std::vector<double> slider_, slip_, gap_;
+  std::vector<double> slider_, slip_;
+  std::vector<double> gap_;          ///< For each deflection branch; 0 for all but gauges.
   std::vector<double> force_error_;  ///< For each part: error of its forces [N]; empty without dilatant laws.
   std::vector<NodeId> held_;         ///< For each node: representative of those that sticking sliders hold together.
   std::vector<double> held_error_;   ///< For each of these: sum of the errors of forces there [N].

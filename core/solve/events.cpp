@@ -22,13 +22,16 @@ NetworkEvents::NetworkEvents(Dae& dae, Consistency& consistency, const Tolerance
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {
       const int branch = laws.first + static_cast<int>(i);
       if (laws.batch->events(i) == 0) continue;
-      watched_.push_back({laws.batch.get(), i, branch});
+      watched_.push_back({.batch = laws.batch.get(), .i = i, .branch = branch, .gauge = dae.network().is_gauge(branch)});
+      gauges_ = gauges_ || watched_.back().gauge;
       rates_needed_ = rates_needed_ || floating(structure.deflections[at(branch)]);
-      for (int k = 0; k < laws.batch->events(i); ++k) events_.push_back({branch, k});
+      for (int k = 0; k < laws.batch->events(i); ++k) {
+        events_.push_back({branch, k});
+        law_of_.push_back(static_cast<int>(watched_.size()) - 1);
+      }
     }
   }
   find_pseudoplastic();
-  find_gauges();
   law_margin_.assign(events_.size(), 0);
   margin_.assign(structure.sliders.size(), 0);
   for (std::size_t k = 0; k < structure.sliders.size(); ++k) {
@@ -69,17 +72,6 @@ void NetworkEvents::find_pseudoplastic() {
     if (found == between.end()) continue;
     law.beside = found->second;
     law.sign = structure.rates[at(law.beside)].a == b.a ? 1 : -1;
-  }
-}
-
-void NetworkEvents::find_gauges() {
-  std::map<int, int> stop_of;
-  for (std::size_t k = 0; k < dae_.network().sliders.size(); ++k) {
-    if (dae_.network().sliders[k].contact) stop_of[dae_.network().sliders[k].gauge] = static_cast<int>(k);
-  }
-  for (Watched& law : watched_) {
-    const auto found = stop_of.find(law.branch);
-    if (found != stop_of.end()) law.stop = found->second;
   }
 }
 
@@ -159,6 +151,7 @@ void NetworkEvents::begin(double t, const double* y, const double* yp) {
   std::fill(limit_margin_.begin(), limit_margin_.end(), 0.0);
   std::fill(loss_margin_.begin(), loss_margin_.end(), 0.0);
   at_begin_.resize(events_.size());
+  if (gauges_) find_opening(resolved(t, y, yp));
   evaluate(t, y, yp, at_begin_.data());
   // Never exactly 0, as for limits.
   const auto margin = [](double g) { return g <= 0 ? -g * (1 + numerics::balance_roundoff) + std::numeric_limits<double>::min() : 0; };
@@ -278,19 +271,35 @@ std::array<double, numerics::held_law_events> NetworkEvents::held_functions(cons
 void NetworkEvents::law_functions(const Watched& law, const Dae::View& view, double* g) const {
   const auto [velocity, dead_band] = flow(law, view);
   law.batch->event_functions(law.i, view.p[at(law.branch)], view.dp[at(law.branch)], velocity, dead_band, g);
-  if (law.stop < 0) return;
   // A contact that has just opened parts by an amount of second order in time, or of third order from a moving plate. The errors of steps and of
-  // round-off may exceed that: it closes where it also approaches, or where the errors cannot be so large.
-  for (const int side : {1, -1}) {
-    double& gap = side > 0 ? g[0] : g[1];
-    if (gap <= 0 && gap > -tolerances_.dead_bands().gap(law.stop) && side * velocity <= dead_band) gap = std::numeric_limits<double>::min();
+  // round-off may exceed that.
+  for (int which = 0; law.gauge && which < 2; ++which) {
+    const bool of_errors = law.opens[at(which)] && g[which] <= 0 && g[which] > -tolerances_.dead_bands().gap(law.branch);
+    if (of_errors && !approaches(law, which, view)) g[which] = std::numeric_limits<double>::min();
+  }
+}
+
+bool NetworkEvents::approaches(const Watched& gauge, int which, const Dae::View& view) const {
+  return (which == 0 ? 1 : -1) * view.flow[at(gauge.branch)] > tolerances_.dead_bands().reversal(gauge.branch);
+}
+
+/// A contact that opens begins with a gap of 0 (`count_from_contact`), and with ends that do not approach each other.
+void NetworkEvents::find_opening(const Dae::View& view) {
+  for (Watched& law : watched_) {
+    if (!law.gauge) continue;
+    std::array<double, 2> gap{};
+    law.opens = {};
+    law_functions(law, view, gap.data());
+    for (int which = 0; which < 2; ++which) {
+      law.opens[at(which)] = gap[at(which)] == 0 && (which == 0 ? 1 : -1) * view.flow[at(law.branch)] <= 0;
+    }
   }
 }
 
 bool NetworkEvents::parts(std::size_t k, const Dae::View& view) const {
-  const auto [branch, which] = events_[k];
-  if (which < 0 || !dae_.network().is_gauge(branch)) return false;
-  return (which == 0 ? 1 : -1) * view.flow[at(branch)] <= tolerances_.dead_bands().reversal(branch);
+  if (events_[k].which < 0) return false;
+  const Watched& law = watched_[at(law_of_[k])];
+  return law.gauge && !approaches(law, events_[k].which, view);
 }
 
 void NetworkEvents::find_returning() {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "core/dae/consistency.hpp"
@@ -81,17 +82,20 @@ class NetworkEvents final : public EventFunctions {
     int branch;
     int beside = -1;  ///< pseudoplastic rate branch in parallel (infinite slope at rest), -1
     double sign = 1;  ///< -1 if that branch has the opposite direction
-    int stop = -1;    ///< rigid stop (slider) whose displacement it measures, -1
+    bool gauge = false;               ///< It measures the displacement of a rigid stop.
+    std::array<bool, 2> opens = {};   ///< A gauge whose contact on this side has just opened, for its events.
   };
   /// A velocity for an event function, and its dead band [m/s].
   struct Flow { double velocity, dead_band; };
   Flow flow(const Watched& law, const Dae::View& view) const;
   void find_pseudoplastic();
-  void find_gauges();
   const Dae::View& resolved(double t, const double* y, const double* yp);
   const Dae::View& resolved(double t, const double* y, bool projected);
   void find_returning();
   void law_functions(const Watched& law, const Dae::View& view, double* g) const;
+  /// Whether the ends of a rigid stop approach each other on the side of its event `which`, faster than by their errors.
+  bool approaches(const Watched& gauge, int which, const Dae::View& view) const;
+  void find_opening(const Dae::View& view);
   /// The event functions of a law; infinite beyond the last.
   std::array<double, numerics::held_law_events> held_functions(const Watched& law, const Dae::View& view) const;
   double slider_function(int slider, const Dae::View& view) const;
@@ -114,6 +118,8 @@ class NetworkEvents final : public EventFunctions {
   bool rates_needed_ = false, slips_along_ = false;
   std::vector<double> y_, yp_;
   std::vector<Watched> watched_;
+  bool gauges_ = false;      ///< any of them measures the displacement of a rigid stop
+  std::vector<int> law_of_;  ///< of each event of the laws: index into `watched_`
   std::vector<int> sliders_;
   std::vector<Returning> returning_;
   bool any_at_rest_ = false;  ///< any law is held at rest

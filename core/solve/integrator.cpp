@@ -56,7 +56,7 @@ struct Integrator::Implementation {
   std::unique_ptr<ExactArc> arc;
   bool on_arc = false, arc_begins = false;  // since the restart; with the next one
   long arc_steps = 0;   // since then
-  double longest_step = std::numeric_limits<double>::infinity();  // s
+  double longest_step = std::numeric_limits<double>::infinity(), first_step = longest_step;  // s; of all steps, and of the first along an arc
 
   Implementation(Dae& d, EventFunctions& e, const std::vector<double>& tol, const std::vector<double>& least,
                  const Options& options)
@@ -200,7 +200,7 @@ struct Integrator::Implementation {
 
   Outcome step_along_arc() {
     ++arc_steps;
-    const double end = arc->step(time, longest_step);
+    const double end = arc->step(time, std::min(longest_step, std::exchange(first_step, std::numeric_limits<double>::infinity())));
     const std::optional<double> event = finder.none() ? std::nullopt : finder.in_long_step(previous, end);
     go_to(event.value_or(end));
     return event ? Outcome::event : end == length() ? Outcome::stop : Outcome::step;
@@ -270,6 +270,7 @@ void Integrator::restart(TimePoint t, const std::vector<double>& y, const std::v
   s.lost = s.lost_by_step = s.reached = 0;
   s.arc_steps = 0;
   s.on_arc = std::exchange(s.arc_begins, false);
+  s.first_step = h;
   if (!s.on_arc) {
     require(IDAReInit(s.ida, 0, s.ny, s.np), "IDAReInit");
     require(IDASetInitStep(s.ida, h), "IDASetInitStep");

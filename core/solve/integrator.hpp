@@ -41,7 +41,7 @@ class Integrator {
 
   /// Whether an exact arc leads from this state at t to `stop`. Call before `restart`.
   bool begins_arc(TimePoint t, const std::vector<double>& y, TimePoint stop);
-  /// Restarts at t from a consistent state, with first step h [s] unless an arc begins. No step passes `stop`.
+  /// Restarts at t from a consistent state. The first step of IDA has the length h, that of an arc this at most [s]. No step passes `stop`.
   void restart(TimePoint t, const std::vector<double>& y, const std::vector<double>& yp, double h, TimePoint stop);
   /// Continues with the same history past the stop time, if the discontinuity there is negligible, to another stop time.
   void go_on(TimePoint stop);

@@ -13,8 +13,8 @@ namespace rheonet {
 /// the contact, and the remaining time relative to the length of the run. The share r is measured over the last two hops, whatever
 /// takes the energy: the restitution, friction beside the stop, or a second mass that is dragged along. Before there are two, it is the
 /// restitution e, and the next hop takes 2 w/a, where a is the acceleration that presses on the contact. A contact also rests if
-/// the next hop loses less speed than the round-off of its end gives back: the hops would not become shorter. And it rests once time has not
-/// resolved several hops in a row: between bodies that touch, hops may shorten much faster than speeds.
+/// the next hop loses less speed than the round-off of its end gives back: the hops would not become shorter. Between bodies that touch, hops may
+/// shorten much faster than speeds: the share of lengths does not count where time does not resolve them.
 class SettlingContacts {
  public:
   SettlingContacts(const Network& network, double accuracy, double length) : accuracy_(accuracy), length_(length), last_(network.sliders.size()) {}
@@ -23,8 +23,8 @@ class SettlingContacts {
   /// Sliders with a gauge.
   std::vector<int> find(System& system, const Tolerances& tolerances, double t, const std::vector<double>& y, const std::vector<double>& yp);
 
-  /// The shortest time in which ends that have just parted turn back, if their acceleration stays [s]; infinite if none does. Velocities of
-  /// round-off do not count.
+  /// The shortest time in which ends turn back, of those that have just parted or meet before, if their acceleration stays [s]; infinite if none
+  /// do. Velocities of round-off do not count.
   static double turning_time(System& system, double t, const std::vector<double>& y, const std::vector<double>& yp);
 
  private:
@@ -33,7 +33,6 @@ class SettlingContacts {
     double speed = 0;  ///< of closing [m/s]
     double hop = 0;    ///< time since the impact before, if there was one [s]
     int count = 0;     ///< of impacts up to here
-    int timeless = 0;  ///< of the last hops, how many in a row time has not resolved
   };
 
   double accuracy_, length_;  ///< [1], [s]

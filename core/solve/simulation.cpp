@@ -342,7 +342,7 @@ class Run {
       // Hops that end in rest are no chattering, as long as time resolves them.
       const bool hops = impact_ == t && t - hopped_ > time_roundoff(t);
       if (impact_ == t) hopped_ = t;
-      if (chatter_.endless(t, fired_, settings_.stop - t) && (impact_ == t || too_fast(t, chatter_.endless_time()))) {
+      if (chatter_.endless(t, fired_, settings_.stop - t, impact_ == t) && (impact_ == t || too_fast(t, chatter_.endless_time()))) {
         if (may_jam(network_, fired_)) report_losses(network_, at_time(*network_.scene, t));
         throw SimulationError(network_.spot_of(fired_.front()), at_time(*network_.scene, t) + " " + chatter_.describe_endless(network_, impact_ == t));
       }
@@ -464,14 +464,15 @@ class Run {
       system_->consistency.project(t, y_);
       system_->consistency.derivative(t, y_, yp_);
     }
-    double h = std::min({until - t, numerics::first_step_lookahead * ahead, first_step(ypp, tolerances_.values()), numerics::first_step_of_hop * settling_.turning_time(*system_, t, y_, yp_)});
+    const double hop = numerics::first_step_of_hop * settling_.turning_time(*system_, t, y_, yp_);
+    double h = std::min({until - t, numerics::first_step_lookahead * ahead, first_step(ypp, tolerances_.values()), hop});
     // Without unknowns and guards a step has no error.
     if (system_->dae.unknowns() == 0 && !system_->events.sticks() && !system_->events.slips_along()) h = until - t;
     limit_step();
     if (settings_.profile) settings_.profile->restart(system_->dae);
     system_->consistency.rest();
-    system_->integrator.restart(inputs_.exact(t), y_, yp_, std::min(std::max(shrink * h, time_roundoff(t)), until - t),
-                                 inputs_.exact_break(until));
+    const double first = on_arc_ ? hop : shrink * h;
+    system_->integrator.restart(inputs_.exact(t), y_, yp_, std::min(std::max(first, time_roundoff(t)), until - t), inputs_.exact_break(until));
   }
 
   void watch_guards(double t) {
