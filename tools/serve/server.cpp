@@ -18,6 +18,7 @@ constexpr std::size_t threads = 400;   // Largest number of connections served a
 constexpr int most_waiting = 512;      // Largest number of accepted connections that wait for a thread, and of pending ones.
 constexpr auto idle = 100ms;           // Interval at which an idle thread checks whether the server ends.
 constexpr int idle_times = 50;         // Intervals that a connection may be idle if no other connection waits.
+constexpr int first_times = 10;        // The same before its first request while others wait: a busy client connects long before it writes.
 constexpr auto request_time = 10s;     // Time in which a request must arrive.
 constexpr auto hurried_time = 1s;      // The same while other connections wait.
 constexpr int most_requests = 1000;    // Largest number of requests on one connection.
@@ -68,7 +69,7 @@ bool Server::process_and_close_socket(int socket) {
   Connection connection(socket);
   for (int k = 0; k < most_requests; ++k) {
     int waited = 0;
-    const auto patience = [this] { return waiting_ > 0 ? 1 : idle_times; };
+    const auto patience = [this, k] { return waiting_ == 0 ? idle_times : k == 0 ? first_times : 1; };
     while (svr_sock_ != INVALID_SOCKET && waited < patience() && !connection.wait_for_request(idle)) ++waited;
     if (svr_sock_ == INVALID_SOCKET || waited >= patience()) break;
     connection.begin_request(waiting_ > 0 ? hurried_time : request_time, most_bytes);
