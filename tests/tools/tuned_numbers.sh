@@ -20,6 +20,7 @@ core/result/energy.cpp points
 core/result/energy.cpp abscissae
 core/result/energy.cpp weights
 core/result/energy.hpp remembered
+core/result/sensitivities.cpp farthest
 core/result/row_store.cpp memory
 core/result/row_store.cpp smallest_block
 core/solve/events.hpp of_slider
