@@ -58,6 +58,18 @@ std::vector<double> slider_velocities(const EventNetwork& net, const State& stat
   return w;
 }
 
+/// For each node, those that sticking sliders join to it.
+std::vector<std::vector<NodeId>> held_together(const EventNetwork& net, const Modes& held) {
+  std::vector<std::vector<NodeId>> around(net.structure.kind.size());
+  for (std::size_t k = 0; k < held.slider.size(); ++k) {
+    if (held.slider[k] != Modes::stuck) continue;
+    const Branch& b = net.network.sliders[k].branch;
+    around[at(b.a)].push_back(b.b);
+    around[at(b.b)].push_back(b.a);
+  }
+  return around;
+}
+
 /// Sliders between masses or prescribed nodes that move in a direction in which they have no bound.
 std::vector<int> moving_backwards(const EventNetwork& net, const State& state) {
   std::vector<int> result;
@@ -356,17 +368,35 @@ double Impacts::halt(double t, const std::vector<int>& events, const Modes& mode
   return together + std::max(0.0, before - kinetic_energy(net_, state));
 }
 
+/// The velocities of given motions, and of the nodes that sticking sliders hold to these without the help of `joining`; NaN for all others. Two motions
+/// that come to one velocity may differ by the round-off of the time.
+std::vector<double> Impacts::held_to_motions(const std::vector<int>& joining, const Modes& held) const {
+  Modes others = held;
+  for (const int k : joining) others.slider[at(k)] = Modes::forward;
+  const std::vector<std::vector<NodeId>> around = held_together(net_, others);
+  std::vector<double> velocity(structure_.kind.size(), std::numeric_limits<double>::quiet_NaN());
+  std::vector<NodeId> reached;
+  for (std::size_t n = 0; n < velocity.size(); ++n) {
+    if (structure_.kind[n] != Kind::known) continue;
+    velocity[n] = net_.given_velocity(static_cast<NodeId>(n));
+    reached.push_back(static_cast<NodeId>(n));
+  }
+  for (std::size_t i = 0; i < reached.size(); ++i) {
+    for (const NodeId other : around[at(reached[i])]) {
+      if (!std::isnan(velocity[at(other)])) continue;
+      velocity[at(other)] = velocity[at(reached[i])];
+      reached.push_back(other);
+    }
+  }
+  return velocity;
+}
+
 /// Gives the nodes that sticking sliders join, one of them among `joining`, their common velocity. Returns the energy that this
 /// turns into heat [J].
 double Impacts::go_on_together(const std::vector<int>& joining, const Modes& held, State& state, std::vector<std::string>& notes) const {
   double heat = 0;
-  std::vector<std::vector<NodeId>> around(structure_.kind.size());
-  for (std::size_t k = 0; k < held.slider.size(); ++k) {
-    if (held.slider[k] != Modes::stuck) continue;
-    const Branch& b = network_.sliders[k].branch;
-    around[at(b.a)].push_back(b.b);
-    around[at(b.b)].push_back(b.a);
-  }
+  const std::vector<std::vector<NodeId>> around = held_together(net_, held);
+  const std::vector<double> kept = held_to_motions(joining, held);
   std::vector<char> seen(structure_.kind.size(), 0);
   for (int k : joining) {
     std::vector<NodeId> cluster{network_.sliders[at(k)].branch.a};
@@ -375,9 +405,7 @@ double Impacts::go_on_together(const std::vector<int>& joining, const Modes& hel
     double momentum = 0, mass = 0, known = std::numeric_limits<double>::quiet_NaN();
     for (std::size_t c = 0; c < cluster.size(); ++c) {
       const NodeId node = cluster[c];
-      if (structure_.kind[at(node)] == Kind::known) {
-        known = net_.given_velocity(node);
-      }
+      if (!std::isnan(kept[at(node)])) known = kept[at(node)];
       momentum += structure_.mass[at(node)] * state.velocity[at(node)];
       mass += structure_.mass[at(node)];
       for (NodeId other : around[at(node)]) {
@@ -393,7 +421,7 @@ double Impacts::go_on_together(const std::vector<int>& joining, const Modes& hel
       const double before = state.velocity[at(node)], m = structure_.mass[at(node)];
       if (std::isnan(known)) lost += m * (before - after) * (before + after) / 2;
       had += m * before * before / 2;
-      state.velocity[at(node)] = after;
+      state.velocity[at(node)] = std::isnan(kept[at(node)]) ? after : kept[at(node)];
     }
     heat += lost;
     if (const Network::Slider& link = network_.sliders[at(k)]; is_rigid_link(link) && lost > numerics::equal_energies * had) {

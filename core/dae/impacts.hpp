@@ -24,6 +24,7 @@ class Impacts {
   std::vector<int> closed_but_for_roundoff(const std::vector<int>& settles, const State& state) const;
   Modes without_moved(Modes modes, const std::vector<double>& before, const State& state) const;
   double halt(double t, const std::vector<int>& events, const Modes& modes, State& state, std::vector<std::string>& notes) const;
+  std::vector<double> held_to_motions(const std::vector<int>& joining, const Modes& held) const;
   double go_on_together(const std::vector<int>& joining, const Modes& held, State& state, std::vector<std::string>& notes) const;
   double collide(double t, const std::vector<double>& momentum, const std::vector<int>& settles, State& state, EventChange& change);
   void refuse_jams(double t, const ConvexNetwork& problem) const;

@@ -30,7 +30,7 @@ class DeadBands {
   double largest_force(int slider) const;
   /// Force by which a sticking slider may exceed its bound because of the errors that steps are allowed [N].
   double slip(int slider) const { return slip_[static_cast<std::size_t>(slider)]; }
-  /// Error of the displacement of a rigid stop, by the tolerances of what it is made of [m]. `gauge`: the branch that measures it.
+  /// Error that the tolerances allow the displacement of a rigid stop [m]. `gauge`: the branch that measures it.
   double gap(int gauge) const { return gap_[static_cast<std::size_t>(gauge)]; }
   /// Velocity at which the force of a dilatant dashpot equals the error of the forces around it [m/s].
   double unfelt_dilatant(int rate) const;

@@ -162,7 +162,7 @@ double EventFinder::before_end(double end, double later) const {
 
 /// Finds the time just behind the first event, by the Illinois variant of the rule of false position (Dowell and Jarratt, BIT 11 (1971)
 /// 168), applied to the function that falls first. Near a simple zero the same end moves twice in a row at most. If it moves more often, a function hardly
-/// changes before it falls. So it is with sliders that share a load: all but one stay at their bounds until the last one is overloaded. From then on
+/// changes before it falls, as where sliders share a load: all but one stay at their bounds until the last one is overloaded. From then on
 /// secants through points behind the event are tried. A round that does not halve the interval is followed by one that does.
 double EventFinder::locate(double begin, double end) {
   const double near = numerics::event_time_ulps * std::numeric_limits<double>::epsilon() * (std::abs(end) + (end - begin));

@@ -279,8 +279,10 @@ void NetworkEvents::law_functions(const Watched& law, const Dae::View& view, dou
   }
 }
 
+double NetworkEvents::closing(const Watched& gauge, int which, const Dae::View& view) { return (which == 0 ? 1 : -1) * view.flow[at(gauge.branch)]; }
+
 bool NetworkEvents::approaches(const Watched& gauge, int which, const Dae::View& view) const {
-  return (which == 0 ? 1 : -1) * view.flow[at(gauge.branch)] > tolerances_.dead_bands().reversal(gauge.branch);
+  return closing(gauge, which, view) > tolerances_.dead_bands().reversal(gauge.branch);
 }
 
 /// A contact that opens begins with a gap of 0 (`count_from_contact`), and with ends that do not approach each other.
@@ -290,9 +292,7 @@ void NetworkEvents::find_opening(const Dae::View& view) {
     std::array<double, 2> gap{};
     law.opens = {};
     law_functions(law, view, gap.data());
-    for (int which = 0; which < 2; ++which) {
-      law.opens[at(which)] = gap[at(which)] == 0 && (which == 0 ? 1 : -1) * view.flow[at(law.branch)] <= 0;
-    }
+    for (int which = 0; which < 2; ++which) law.opens[at(which)] = gap[at(which)] == 0 && closing(law, which, view) <= 0;
   }
 }
 

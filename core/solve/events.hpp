@@ -82,8 +82,8 @@ class NetworkEvents final : public EventFunctions {
     int branch;
     int beside = -1;  ///< pseudoplastic rate branch in parallel (infinite slope at rest), -1
     double sign = 1;  ///< -1 if that branch has the opposite direction
-    bool gauge = false;               ///< It measures the displacement of a rigid stop.
-    std::array<bool, 2> opens = {};   ///< A gauge whose contact on this side has just opened, for its events.
+    bool gauge = false;              ///< It measures the displacement of a rigid stop,
+    std::array<bool, 2> opens = {};  ///< whose contact has just opened, on the side of each of its events.
   };
   /// A velocity for an event function, and its dead band [m/s].
   struct Flow { double velocity, dead_band; };
@@ -93,7 +93,8 @@ class NetworkEvents final : public EventFunctions {
   const Dae::View& resolved(double t, const double* y, bool projected);
   void find_returning();
   void law_functions(const Watched& law, const Dae::View& view, double* g) const;
-  /// Whether the ends of a rigid stop approach each other on the side of its event `which`, faster than by their errors.
+  /// Velocity at which a rigid stop closes on the side of its event `which` [m/s], and whether that is more than its error.
+  static double closing(const Watched& gauge, int which, const Dae::View& view);
   bool approaches(const Watched& gauge, int which, const Dae::View& view) const;
   void find_opening(const Dae::View& view);
   /// The event functions of a law; infinite beyond the last.

@@ -55,7 +55,7 @@ double SettlingContacts::turning_time(System& system, double t, const std::vecto
     if (!slider.contact || system.dae.network().contact_of(slider) != 0) continue;
     const Dae::View& view = system.dae.view_again(t, y.data(), yp.data());
     const auto relative = [&](const std::vector<double>& of_nodes) { return of_nodes[at(slider.branch.a)] - of_nodes[at(slider.branch.b)]; };
-    const double w = relative(view.velocity), acceleration = relative(view.acceleration), turns = -w / acceleration;
+    const double w = relative(view.velocity), turns = -w / relative(view.acceleration);
     const double roundoff = numerics::equal_values * (std::abs(view.velocity[at(slider.branch.a)]) + std::abs(view.velocity[at(slider.branch.b)]));
     if (!(std::abs(w) > roundoff && turns > 0)) continue;
     const double p = view.p[at(slider.gauge)];

@@ -112,7 +112,7 @@ dashpot = {{ type = "dashpot", between = ["top", "base"], damping = {:.17g} }}
 )", A, frequency, m, k, c), stop) + record(expected), expected);
 }
 
-// The base oscillates about one place. What an early error of its velocity adds to its position grows until the end.
+// The base oscillates about one place. An error of its velocity, made early, moves its position until the end.
 TEST_CASE("a base that a function accelerates to and fro for long ends where it should") {
   const double a = 3, w = 7, longer = 60;
   const std::string toml = fmt::format(R"toml(

@@ -56,7 +56,7 @@ TEST_CASE("wirings that did not always agree with an independent integrator") {
 TEST_CASE("wirings that did not always satisfy the identities of mechanics") {
   const std::vector<int> numbers = {449,  532,  537,  560,  776,  1096, 1139, 1353, 1395, 1416, 1420, 2035, 2910, 3514,
                                     3980, 4088, 4139, 5179, 5287, 5395, 5990, 6282, 6883, 6910, 7307, 7355, 7432, 8002,
-                                    9095, 9411, 9715, 10116, 10185, 10517, 10635};
+                                    8916, 9095, 9411, 9715, 10116, 10185, 10517, 10635};
   const Tally tally = judge_all(numbers, 1, check_identities);
   CHECK_MESSAGE(tally.of(Verdict::agrees) == numbers.size(), format_list(tally.wrong));
 }
