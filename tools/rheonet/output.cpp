@@ -171,9 +171,12 @@ long Output::write(const char* text, std::size_t size) {
     error_ = begin();
   }
   const std::size_t written = put(text, size);
-  lines_ += std::count(text, text + written, '\n');
-  const std::size_t whole = std::string_view(text, written).rfind('\n') + 1;  // 0: no complete row.
-  begun_ = whole > 0 ? written - whole : begun_ + written;
+  begun_ += written;
+  const std::string_view rows(text, written);
+  for (std::size_t end = rows.find('\n'); end < written; end = rows.find('\n', end + 1)) {
+    ++lines_;
+    begun_ = written - end - 1;
+  }
   if (error_ != 0) drop_begun_row();
   return static_cast<long>(written);
 }
