@@ -54,7 +54,16 @@ ${[...Array(12).keys()].map((k) => `s${k} = { type = "spring", between = ["n${k}
 stop = 1
 record = ["s0.force"]
 `;
-const desk = setUp({ 'oscillator.toml': oscillator, 'turning.toml': turning, 'wide.toml': wide });
+// The hand goes to and fro by 10 mm and pulls two equal springs in series.
+const loop = `[elements]
+hand = { type = "motion", at = "hand", position = { sine = "10 mm", frequency = "1 Hz" } }
+k1 = { type = "spring", between = ["hand", "mid"], stiffness = "100 N/m" }
+k2 = { type = "spring", between = ["mid", "ground"], stiffness = "100 N/m" }
+[simulate]
+stop = "1 s"
+record = ["hand.position", "k2.force"]
+`;
+const desk = setUp({ 'loop.toml': loop, 'oscillator.toml': oscillator, 'turning.toml': turning, 'wide.toml': wide });
 const { open } = desk;
 const file = '#file=oscillator.toml';
 
@@ -231,6 +240,31 @@ test('of many records a few are shown, and the others are one click away', async
   await page.locator('.chooser summary').click();
   await page.locator('button.all-own').click();
   assert.equal(await shown(), 10);
+  await close();
+});
+
+test('any two records are drawn against each other: the force of an element over the position of a driven node', async () => {
+  const { page, close } = await open('#file=loop.toml');
+  await page.locator('.tabs label', { hasText: 'Any two records' }).click();
+  const [up, across] = ['vertical axis', 'horizontal axis'].map((label) => page.getByLabel(label, { exact: true }));
+  assert.equal(await across.inputValue(), 'hand.position');
+  await up.selectOption('k2.force');
+  assert.equal(await up.evaluate((select) => select === document.activeElement), true);
+  // Two springs in series share the force: half of 100 N/m times the way of the hand, and k2 is pulled as the hand moves ahead.
+  const over = page.locator('.plots .chart.loop .u-over');
+  const box = await over.boundingBox();
+  await page.mouse.move(box.x + 0.7 * box.width, box.y + 0.3 * box.height);
+  const [, x, y] = /^k2\.force: ([-\d.]+) mm, ([-\d.]+) N/.exec(await page.locator('.plots .readout').textContent());
+  assert.ok(Number(x) > 4 && Math.abs(Number(y) - 0.05 * Number(x)) < 1e-3 * Number(x), `${x} ${y}`);
+  await across.selectOption('k2.displacement');
+  assert.match(await page.locator('.plots .chart.loop').getAttribute('aria-label'), /^force against displacement/);
+  // A link has the choice too.
+  await page.getByRole('button', { name: 'Link' }).click();
+  await page.waitForFunction(() => location.hash.length > 50);
+  await page.reload();
+  await page.waitForSelector('.plots .chart.loop');
+  assert.deepEqual([await up.inputValue(), await across.inputValue()], ['k2.force', 'k2.displacement']);
+  await accessible(page, 'two records');
   await close();
 });
 

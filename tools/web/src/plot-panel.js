@@ -13,6 +13,7 @@ const kinds = [
   { id: 'loop', label: t('Force against displacement'), x: 'displacement', y: 'force' },
   { id: 'flow', label: t('Force against velocity'), x: 'velocity', y: 'force' },
   { id: 'phase', label: t('Phase plane'), x: 'position', y: 'velocity' },
+  { id: 'pair', label: t('Any two records') },
 ];
 const least = (usual, presenting) => (document.body.classList.contains('presenting') ? presenting : usual); // Heights [px].
 const few = { curves: 4, panels: 3, all: 8 }; // Default limits: curves of one quantity, panels, curves in all.
@@ -34,6 +35,7 @@ export class PlotPanel {
     this.kind = null; // nobody has chosen
     this.owner = null;
     this.chosen = null;
+    this.pair = null; // two records, of the kind `pair`
     this.charts = [];
     this.runs = [];
     this.failures = []; // runs of which there is nothing to draw
@@ -68,6 +70,7 @@ export class PlotPanel {
       this.shownKind,
       this.ownCurves(),
       this.owner,
+      this.pair,
       this.chosen && [...this.chosen],
       this.runs.map((run) => [run.label, run.data.records.map((record) => [record.path, record.unit])]),
     ]);
@@ -118,12 +121,13 @@ export class PlotPanel {
 
   // The user's choices, for a link.
   get state() {
-    return { kind: this.kind, owner: this.owner, chosen: this.chosen && [...this.chosen] };
+    return { kind: this.kind, owner: this.owner, chosen: this.chosen && [...this.chosen], pair: this.pair };
   }
-  set state({ kind, owner, chosen }) {
+  set state({ kind, owner, chosen, pair }) {
     this.kind = kinds.some((known) => known.id === kind) ? kind : null;
     this.owner = owner ?? null;
     this.chosen = chosen ? new Set(chosen) : null;
+    this.pair = Array.isArray(pair) ? pair : null;
   }
 
   // The curves of [plot] that are not over time.
@@ -148,7 +152,8 @@ export class PlotPanel {
     if (!this.runs.length) return;
     const kind = kinds.find((known) => known.id === this.shownKind);
     if (kind.id === 'time') this.buildTime();
-    else if (kind.id === 'own') this.buildOwn();
+    else if (kind.id === 'own') this.buildAgainst(this.ownCurves());
+    else if (kind.id === 'pair') this.buildPair();
     else this.buildLoop(kind);
     this.tools.append(...[this.nextButton, this.traces?.controls, kind.id === 'time' ? this.measure.button : null, this.holdButton].filter(Boolean));
     if (this.isHeld) this.charts.forEach((chart) => chart.hold(true));
@@ -159,8 +164,8 @@ export class PlotPanel {
 
   update() {
     const kind = kinds.find((known) => known.id === this.shownKind);
-    if (kind.id === 'own') {
-      const panels = this.ownPanels();
+    if (kind.id === 'own' || kind.id === 'pair') {
+      const panels = this.panelsOf(kind.id === 'own' ? this.ownCurves() : [this.shownPair()]);
       this.charts.forEach((chart, k) => chart.update(panels[k].curves));
       return;
     }
@@ -173,30 +178,59 @@ export class PlotPanel {
     this.charts.forEach((chart, k) => chart.update(panels[k].curves, this.eventTimes()));
   }
 
-  // A panel for each pair of quantities that the scene draws against each other.
-  ownPanels() {
+  // A panel for each pair of quantities among `pairs` of records, which are drawn against each other.
+  panelsOf(pairs) {
     const panels = new Map();
     this.runs.forEach(({ label, data }, run) => {
-      this.ownCurves().forEach(([x, y], style) => {
+      pairs.forEach(([x, y], style) => {
         const sides = [x, y].map((path) => data.records[data.index.get(path)]);
         if (!sides[0] || !sides[1]) return;
         const [across, up] = sides.map(({ quantity, unit, shown }) => ({ quantity, unit, as: shown }));
         const key = JSON.stringify([across, up]);
         if (!panels.has(key)) panels.set(key, { x: across, y: up, curves: [] });
         const panel = panels.get(key);
-        const name = this.ownCurves().every(([other]) => other === x) ? y : t('{y} against {x}', { y, x });
+        const name = pairs.every(([other]) => other === x) ? y : t('{y} against {x}', { y, x });
         panel.curves.push({ name: label ? `${label} ${name}` : name, time: data.time, x: data.column(x), y: data.column(y), ...this.look(run, style), paths: [x, y], run, data });
       });
     });
     return [...panels.values()];
   }
 
-  buildOwn() {
-    for (const panel of this.ownPanels()) {
+  buildAgainst(pairs) {
+    for (const panel of this.panelsOf(pairs)) {
       const host = element('div');
       this.body.append(host);
       this.charts.push(new LoopChart(host, panel));
     }
+  }
+
+  // The records of all runs, by their paths.
+  get allRecords() {
+    return new Map(this.runs.flatMap(({ data }) => data.records.map((record) => [record.path, record])));
+  }
+
+  // The two records that are drawn against each other: by default the first force over the position of the first driven node.
+  shownPair() {
+    const all = [...this.allRecords.values()];
+    const known = (path) => all.find((record) => record.path === path)?.path;
+    const first = (channel, owner) => all.find((record) => record.channel === channel && (!owner || record.owner === owner))?.path;
+    const driven = this.runs[0].data.scene.elements.find(({ type, a }) => ['motion', 'force', 'torque'].includes(type) && first('position', a))?.a;
+    return [known(this.pair?.[0]) ?? first('position', driven) ?? all[0]?.path, known(this.pair?.[1]) ?? first('force') ?? all.at(-1)?.path];
+  }
+
+  buildPair() {
+    const paths = [...this.allRecords.keys()];
+    const pair = this.shownPair();
+    const select = (side, label) => {
+      const input = element('select', { 'aria-label': label }, paths.map((path) => element('option', { value: path, selected: path === pair[side] }, path)));
+      input.addEventListener('change', () => {
+        this.choose({ pair: side ? [pair[0], input.value] : [input.value, pair[1]] });
+        this.tools.querySelectorAll('select')[1 - side].focus(); // The charts are built anew.
+      });
+      return input;
+    };
+    this.tools.append(select(1, t('vertical axis')), t('against'), select(0, t('horizontal axis')));
+    this.buildAgainst([pair]);
   }
 
   // Where there are several runs the colour tells them apart, everywhere, and the dashes tell their records apart; of a single run the
@@ -264,8 +298,7 @@ export class PlotPanel {
 
   chooser() {
     const shown = this.shownPaths();
-    const all = new Map();
-    for (const { data } of this.runs) data.records.forEach((record) => all.set(record.path, record));
+    const all = this.allRecords;
     const boxes = element('div', { class: 'boxes' });
     const chosen = [...shown].filter((path) => all.has(path)).length;
     const count = element('span', {}, t('Records ({shown} of {all})', { shown: chosen, all: all.size }));
