@@ -108,17 +108,25 @@ test('two variants are compared', async () => {
   });
   await shows(page, 0.999, 'A k1.force', 7);
   await shows(page, 0.999, 'B k1.force', 9);
+  // Both schematics, A before B, move together to one scale.
+  const pictures = () => page.locator('.drawings > :visible').evaluateAll((all) => all.sort((a, b) => a.getBoundingClientRect().left - b.getBoundingClientRect().left)
+    .map((host) => [host.dataset.label, /s1\D*(\d+) N·m/.exec(host.textContent)?.[1], host.querySelector('.slider').classList.contains('slips')]));
+  assert.deepEqual(await pictures(), [['A', '2', false], ['B', '4', false]]);
+  await page.locator('.animation > input').fill('15'); // 3 ms: the spring has 3 N·m, A slips and B sticks.
+  assert.deepEqual(await pictures(), [['A', '2', true], ['B', '4', false]]);
   await page.locator('summary', { hasText: 'Differences' }).click();
   await page.waitForSelector('details[data-name="Differences"] table');
   // The two are 2 N*m apart as soon as both slip.
   assert.match(await page.locator('details[data-name="Differences"]').textContent(), /A – Bk1\.force2\sN·m/);
   await page.locator('.variants label', { hasText: 'Edit A' }).click();
   assert.match(await netlist(page), /Tc = "2 N\*m"/);
+  assert.deepEqual((await pictures()).map(([label, torque]) => [label, torque]), [['A', '2'], ['B', '4']]);
   await page.locator('.variants label', { hasText: 'Edit B' }).click();
   assert.match(await netlist(page), /Tc = "4 N\*m"/);
   await accessible(page, 'comparison');
   await page.locator('button', { hasText: 'End comparison' }).click();
   assert.equal(await page.locator('.u-series', { hasText: 'A k1.force' }).count(), 0);
+  assert.equal((await pictures()).length, 1);
   await shows(page, 0.999, 'k1.force', 9);
   await close();
 });

@@ -16,8 +16,10 @@ const step = 500; // Time between two pictures for users who prefer reduced moti
 const gapOfTurning = 8; // Largest gap between the plates of a rotational stop [px].
 
 export class Animation {
-  constructor(host, { onframe }) {
+  // `follower`: the animation of another run, which shows the same times to the same scales.
+  constructor(host, { onframe = () => {}, follower = null } = {}) {
     this.onframe = onframe;
+    this.follower = follower;
     this.playing = false;
     this.place = 0; // Position in the run, 0 to 1.
     this.button = element('button', { type: 'button', class: 'play', 'aria-pressed': 'false', onclick: () => this.toggle() }, t('▶ Play'));
@@ -42,8 +44,8 @@ export class Animation {
     return this.toggles[name].firstChild.checked && !this.toggles[name].hidden;
   }
 
-  // Sets the drawing and its run.
-  attach(svg, data) {
+  // Sets the drawing and its run. `beside`: a run that is shown beside it.
+  attach(svg, data, beside = null) {
     const named = ({ scene }) => `${scene.file} ${scene.title}`;
     const isOther = this.data && named(this.data) !== named(data);
     this.data = data;
@@ -53,7 +55,7 @@ export class Animation {
       this.parts = null;
       return;
     }
-    this.scale = new MotionScale(data);
+    this.scale = new MotionScale(data, beside?.hasCurves ? new MotionScale(beside) : null);
     if (this.svg !== svg) this.take(svg);
     this.bounds = this.boundsOf(data.scene.elements);
     this.wires.forEach(({ node, name }) => node.classList.toggle('runs', this.scale.runs(name)));
@@ -165,6 +167,16 @@ export class Animation {
     this.clock.textContent = `${number(time / factor, 4)} ${name}`;
     this.scrub.setAttribute('aria-valuetext', this.clock.textContent);
     if (this.playing || this.place > 0) this.onframe(time);
+    this.follower?.follow(this, time);
+  }
+
+  follow(leader, time) {
+    if (!this.parts) return;
+    const { start, stop } = this.data.scene;
+    this.place = Math.min(1, Math.max(0, (time - start) / (stop - start)));
+    this.toggles.forces.firstChild.checked = leader.shows('forces');
+    this.forces.scales = leader.forces.scales;
+    this.draw();
   }
 
   drawPart(part, shift, i) {

@@ -45,7 +45,7 @@ export class Drawing {
     const palette = element('div', { class: 'palette', role: 'group', 'aria-label': t('Element types'), hidden: true });
     this.palette = new Palette(palette, { onchoose: (type) => this.begin(type), ondrop: (type, x, y) => this.drop(type, x, y) });
     bar.append(this.toggle, this.tools);
-    this.host.before(palette, this.prompt);
+    this.host.parentNode.before(palette, this.prompt);
   }
 
   async switch(on = !this.isOn) {

@@ -27,7 +27,8 @@ function fromNearby(column) {
 }
 
 export class MotionScale {
-  constructor(data) {
+  // `other`: the scales of another run, with which this one shares its scales.
+  constructor(data, other = null) {
     this.data = data;
     const positions = data.records.filter(({ channel, subject }) => channel === 'position' && subject === 'node');
     this.lengths = new Map();
@@ -39,6 +40,8 @@ export class MotionScale {
     this.links = data.scene.elements.filter(({ a, b }) => b && a !== b && this.moves(a) && this.moves(b));
     this.scaleLengths();
     this.scaleAngles();
+    if (other?.px > 0) this.px = Math.min(this.px || Infinity, other.px);
+    if (other?.angles.size) this.turn = Math.min(this.turn, other.turn);
   }
 
   moves(node) {

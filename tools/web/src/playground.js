@@ -52,7 +52,8 @@ class Playground {
     this.traces = new Traces(() => this.showPlots());
     this.plots = new PlotPanel(this.parts.plots, { onchange: () => this.showSections(), fits: true, traces: this.traces });
     this.folds = new Folds(this.parts.sections, () => this.request());
-    this.animation = new Animation(this.parts.animation, { onframe: (time) => this.plots.mark(time) });
+    this.besideAnimation = new Animation(element('div'));
+    this.animation = new Animation(this.parts.animation, { onframe: (time) => this.plots.mark(time), follower: this.besideAnimation });
     this.course = new Lesson(this.lesson, {
       sliders: this.sliders, language,
       others: () => this.files.lessons(),
@@ -118,11 +119,12 @@ class Playground {
       element('div', { class: 'stage' },
         element('div', { class: 'view' },
           (this.lesson = box('lesson', t('Question'))),
-          box('schematic', t('Schematic'), part('draw'), part('drawing'), part('animation')),
+          box('schematic', t('Schematic'), part('draw'), element('div', { class: 'drawings' }, part('drawing'), (this.beside = element('div', { class: 'beside', hidden: true }))), part('animation')),
           box('plots', t('Plots'), this.status, part('plots'))),
         box('more', t('More'), part('sections')))));
     this.view = new DrawingView(this.parts.drawing);
-    this.parts.drawing.before(this.view.controls);
+    this.besideView = new DrawingView(this.beside);
+    this.parts.drawing.parentNode.before(this.view.controls);
     new ResizeObserver(() => document.body.style.setProperty('--bar', `${bar.offsetHeight}px`)).observe(bar);
     this.lesson.hidden = true;
     this.toast = element('p', { class: 'toast', hidden: true, 'aria-hidden': 'true' });
@@ -263,6 +265,7 @@ class Playground {
     if (data.time.length || complete) Object.assign(variant, { data, shown: text });
     variant.stale = false;
     if (isCurrent) this.showScene(data);
+    else if (this.current.data.scene) this.showMotion(this.current.data);
     this.showPlots();
     if (complete) this.finish(data, asked);
   }
@@ -318,7 +321,7 @@ class Playground {
     this.showTitle(scene.title);
     this.showLesson(scene);
     this.showSchematic(scene);
-    this.animation.attach(this.parts.drawing.querySelector('svg'), data);
+    this.showMotion(data);
     this.course.take(data, this.current.shown ?? this.current.text);
   }
 
@@ -333,6 +336,28 @@ class Playground {
     this.parts.drawing.replaceChildren(schematicOf(scene));
     this.drawing.attach(scene);
     this.view.attach();
+  }
+
+  showMotion(data) {
+    const other = this.variants[1 - this.active];
+    this.showBeside(other);
+    this.animation.attach(this.parts.drawing.querySelector('svg'), data, other?.data);
+  }
+
+  // The schematic of the variant that is compared with the current one.
+  showBeside(other) {
+    const scene = other?.data.scene;
+    this.beside.hidden = !scene;
+    this.parts.drawing.dataset.label = scene ? this.current.label : '';
+    if (scene?.schematic !== this.drawnBeside) {
+      this.beside.replaceChildren(...(scene ? [schematicOf(scene)] : []));
+      this.besideView.attach();
+    }
+    this.drawnBeside = scene?.schematic;
+    if (!scene) return;
+    this.beside.dataset.label = other.label;
+    this.beside.style.order = this.active ? -1 : 0; // A is before B.
+    this.besideAnimation.attach(this.beside.querySelector('svg'), other.data, this.current.data);
   }
 
   showLesson(scene) {
@@ -385,6 +410,7 @@ class Playground {
     if (this.variants.length > 1) {
       this.files.leave(location.href);
       this.endComparison();
+      this.showBeside(null);
       this.showPlots();
       this.showSections();
       this.offerBack(t('The comparison has ended. Undo brings it back.'));
