@@ -4,7 +4,7 @@ import { readFileSync } from 'node:fs';
 import { dirname, join } from 'node:path';
 import { test } from 'node:test';
 import { fileURLToPath } from 'node:url';
-import { number, redrawn, setUp, stickSlip } from './desk.mjs';
+import { netlist, number, redrawn, setUp, stickSlip } from './desk.mjs';
 import { accessible, bingham } from './support.mjs';
 
 const creamy = stickSlip.replace('k1 = ', 'oil = { type = "dashpot", between = ["block", "ground"], damping = "1e-9 N*s/m" }\nk1 = ');
@@ -116,8 +116,34 @@ test('a sweep draws the resonance curve: F/(2 zeta k) at resonance', async () =>
   const [at, amplitude] = await swept(page, { number: 'parameters.r', from: 0.5, to: 1, runs: 6, measure: 'amplitude in the last third', records: [['record', 'block.position']] });
   assert.equal(at, 1);
   assert.ok(Math.abs(amplitude - 1 / (2 * 0.1 * 200)) < 0.02 * amplitude, String(amplitude));
-  assert.ok(await fold(page, 'Sweep').locator('.chart.loop canvas').isVisible());
+  const sweep = fold(page, 'Sweep');
+  assert.ok(await sweep.locator('.chart.loop canvas').isVisible());
   await accessible(page, 'sweep');
+  // The highest point is read at first, others by key or by a click.
+  const said = sweep.locator('output.point');
+  const value = async () => {
+    const [, r, mm] = /^r = ([\d.]+), amplitude in the last third: block\.position = ([\d.]+)\smm$/.exec(await said.textContent());
+    return [Number(r), Number(mm) / 1000];
+  };
+  assert.equal((await value())[0], 1);
+  assert.ok(Math.abs((await value())[1] - amplitude) < 1e-5 * amplitude);
+  await sweep.getByLabel('Point of the curve').press('ArrowLeft');
+  assert.equal((await value())[0], 0.9);
+  const over = sweep.locator('.u-over');
+  await over.scrollIntoViewIfNeeded();
+  const box = await over.boundingBox();
+  const dot = await sweep.locator('.dot').boundingBox();
+  assert.ok(dot.x > box.x + box.width / 2);
+  await sweep.getByLabel('Point of the curve').fill('1');
+  const [x, y] = await sweep.locator('.dot').boundingBox().then(({ x, y }) => [x + 5, y + 5]);
+  await sweep.getByLabel('Point of the curve').fill('5');
+  await page.mouse.click(x, y);
+  assert.equal((await value())[0], 0.6);
+  await redrawn(page, () => sweep.getByRole('button', { name: 'Load this point' }).click());
+  assert.match(await netlist(page), /r += +0\.6\b/);
+  await page.waitForTimeout(400); // The sections are made anew; the curve is still that of the netlist.
+  assert.equal(await sweep.locator('.stale').count(), 0);
+  assert.equal((await value())[0], 0.6);
   await close();
 });
 

@@ -11,14 +11,14 @@ import { claimsOf, elementsOf, energyOf, equationsOf, eventsOf, explanationOf, i
 import { SweepPanel } from './sweep.js';
 
 export class Folds {
-  // request(): the netlist that is edited: its text, file and session.
-  constructor(host, request) {
+  // request(): the netlist that is edited: its text, file and session; load(path, value): gives a number of it another value.
+  constructor(host, request, load) {
     this.host = host;
     this.request = request;
     this.charts = [];
     this.effects = new Analysis('effects', effectsOf);
     this.prices = new Analysis('precision', ({ prices }, charts) => (prices ? pricesOf(prices, this.isExact, inWords, charts) : []));
-    this.sweep = new SweepPanel();
+    this.sweep = new SweepPanel(request, load);
   }
 
   // Call when the text has changed: ends the analyses, whose results are outdated.

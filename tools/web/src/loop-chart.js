@@ -18,8 +18,8 @@ function decades(plot, axis, min, max) {
 }
 
 export class LoopChart extends Chart {
-  // curves: [{ name, time, x, y }]; x and y: the axes, { quantity, unit, as }, or { log: true } for both.
-  constructor(host, { x, y, curves, height = 380, marks = false }) {
+  // curves: [{ name, time, x, y }]; x and y: the axes, { quantity, unit, as }, or { log: true } for both. onpick(k, i): point i of curve k was clicked.
+  constructor(host, { x, y, curves, height = 380, marks = false, onpick = null }) {
     super(host, height);
     this.marks = marks;
     host.classList.add('chart', 'loop');
@@ -77,6 +77,10 @@ export class LoopChart extends Chart {
     listenToFingers(this);
     this.plot.over.addEventListener('mousemove', () => this.hover());
     this.plot.over.addEventListener('mouseleave', () => this.hide());
+    if (onpick) this.plot.over.addEventListener('click', () => {
+      const { distance, k, i } = this.nearest();
+      if (distance <= 40) onpick(k, i);
+    });
   }
 
   findUnits() {
@@ -128,7 +132,8 @@ export class LoopChart extends Chart {
     this.readout.textContent = '';
   }
 
-  hover() {
+  // The point that is nearest to the cursor, and its distance [px].
+  nearest() {
     const { left, top } = this.plot.cursor;
     let best = { distance: Infinity };
     this.plot.data.slice(1).forEach(([xs, ys], k) => {
@@ -137,15 +142,20 @@ export class LoopChart extends Chart {
         if (distance < best.distance) best = { distance, k, i };
       }
     });
+    return best;
+  }
+
+  hover() {
     this.hide();
-    if (best.distance > 40) return;
-    const { k, i } = best;
+    const { distance, k, i } = this.nearest();
+    if (distance > 40) return;
     this.show(k, i);
     const [xs, ys] = this.plot.data[k + 1];
     const curve = this.curves[k];
     const unit = curve.time && timeShown(curve.time[0], curve.time.at(-1));
     const time = unit ? ` at ${number(curve.time[i] / unit.factor, 5)} ${unit.name}` : '';
-    this.readout.textContent = `${curve.name}: ${read(this.plot, 'x', xs[i], 5)} ${this.units[0].name}, ${read(this.plot, 'y', ys[i], 5)} ${this.units[1].name}${time}`;
+    const [x, y] = [read(this.plot, 'x', xs[i], 5), read(this.plot, 'y', ys[i], 5)].map((value, side) => `${value} ${this.units[side].name}`.trim());
+    this.readout.textContent = `${curve.name}: ${x}, ${y}${time}`;
   }
 
   // Marks the points of the curves at a time.

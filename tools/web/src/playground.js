@@ -51,7 +51,7 @@ class Playground {
     this.sliders = new Sliders(this.parts.sliders, this.editor);
     this.traces = new Traces(() => this.showPlots());
     this.plots = new PlotPanel(this.parts.plots, { onchange: () => this.showSections(), fits: true, traces: this.traces });
-    this.folds = new Folds(this.parts.sections, () => this.request());
+    this.folds = new Folds(this.parts.sections, () => this.request(), (path, value) => this.sliders.slide(path, value));
     this.besideAnimation = new Animation(element('div'));
     this.animation = new Animation(this.parts.animation, { onframe: (time) => this.plots.mark(time), follower: this.besideAnimation });
     this.course = new Lesson(this.lesson, {

@@ -217,6 +217,10 @@ export class Sliders {
     if (!this.all.length) this.host.append(element('p', { class: 'note' }, t('The netlist has no numbers to turn.')));
   }
 
+  slide(path, value) {
+    this.all.find((slider) => slider.path === path)?.slide(value);
+  }
+
   // The texts in the netlist of the numbers with these paths, "parameters.B".
   literals(paths) {
     return Object.fromEntries(this.all.filter(({ path }) => paths.includes(path)).map((slider) => [slider.path, slider.literal()]));

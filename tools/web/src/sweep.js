@@ -3,7 +3,7 @@ import { task } from './api.js';
 import { element } from './dom.js';
 import { LoopChart } from './loop-chart.js';
 import { t } from './messages.js';
-import { number } from './units.js';
+import { inPrint, number, withUnit } from './units.js';
 
 // The measures: `texts(record, third, other)` returns measures for `rheonet sweep --measure`, and `of` computes a number from their values. A
 // measure that compares two records uses their difference, which is added to the records of the netlist.
@@ -23,7 +23,10 @@ const most = 400; // runs
 const decimal = /^[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i;
 
 export class SweepPanel {
-  constructor() {
+  // request(): the netlist that is edited; load(path, value): gives a number of it another value.
+  constructor(request, load) {
+    this.latest = request;
+    this.load = load;
     this.clear();
   }
 
@@ -43,7 +46,7 @@ export class SweepPanel {
       event.preventDefault();
       this.run();
     });
-    this.result = element('div', { class: 'stale' }, this.drawn);
+    this.result = element('div', { class: request.text === this.drawnOf ? null : 'stale' }, this.drawn);
     this.host.append(this.fields, this.result);
     this.build();
     return this.host;
@@ -188,12 +191,16 @@ export class SweepPanel {
   draw({ x, y, failed, unit, wrong }, { numbers, isLog }) {
     this.chart?.destroy();
     this.chart = null;
+    this.pick = null;
+    this.drawnOf = this.request.text;
+    const isDone = x.length + failed.length === numbers.length;
     const host = element('div');
     const { knob, measure, record, other } = this;
     const name = measure.isOfRun ? measure.label : measure.isOfTwo ? `${other} – ${record}` : `${measure.label}: ${record}`;
     this.drawn = [
       wrong ? element('p', { class: 'note bad' }, wrong) : null,
       x.length > 1 ? host : null,
+      x.length > 1 && isDone ? this.point(x, y, unit, name) : null,
       element('p', { class: 'note', role: 'status' }, t('{done} of {all} runs', { done: x.length + failed.length, all: numbers.length })),
       failed.length ? element('p', { class: 'note bad' }, t('{count} of the runs failed. The first: {failure}', { count: failed.length, failure: failed[0] })) : null,
     ].filter(Boolean);
@@ -204,8 +211,33 @@ export class SweepPanel {
       this.chart = new LoopChart(host, {
         x: { quantity: knob.name, unit: knob.unit, as: { name: knob.unit, factor: 1 }, log: isLog && isPositive },
         y: { quantity: measure.label, unit: unit === '1' ? '' : unit, log: isLog && isPositive },
-        curves: [{ name, x, y }], height: 300, marks: true,
+        curves: [{ name, x, y }], height: 300, marks: true, onpick: (_, i) => this.pick?.(i),
       });
     this.host.dataset.last = y.length ? `${number(x.at(-1))} ${number(y.at(-1), 6)}` : '';
+  }
+
+  // One point of the curve: by default the highest. It is chosen in the chart or here, and its value can be put into the netlist.
+  point(x, y, unit, name) {
+    const { path, name: of, unit: ofNumber } = this.knob;
+    const range = element('input', { type: 'range', min: '0', max: String(x.length - 1), step: '1', 'aria-label': t('Point of the curve') });
+    const said = element('output', { class: 'point' });
+    const show = () => {
+      const i = Number(range.value);
+      said.textContent = `${of} = ${`${number(x[i], 6)} ${inPrint(ofNumber)}`.trim()}, ${name} = ${withUnit(y[i], unit, 6)}`;
+      range.setAttribute('aria-valuetext', said.textContent);
+      if (!this.chart) return;
+      this.chart.hide();
+      this.chart.show(0, i);
+    };
+    this.pick = (i) => {
+      range.value = String(i);
+      show();
+    };
+    range.addEventListener('input', show);
+    this.pick(y.indexOf(Math.max(...y)));
+    return element('div', { class: 'sweep-point' }, range, said, element('button', { type: 'button', onclick: () => {
+      this.load(path, x[Number(range.value)]);
+      this.drawnOf = this.latest().text;
+    } }, t('Load this point')));
   }
 }
