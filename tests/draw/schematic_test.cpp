@@ -392,6 +392,27 @@ TEST_CASE("a force or motion stands in the middle of its texts") {
   }
 }
 
+TEST_CASE("the arrow of what acts in the negative direction points backward, and its value has no sign") {
+  const auto arrow = [](const std::string& drive) {
+    const Scene scene = scene_from("[elements]\nk = { type = \"spring\", between = [\"x\", \"ground\"], stiffness = 1 }\ndrive = { at = \"x\", " + drive + " }\n");
+    const Picture picture = drawn(scene);
+    std::string texts;
+    for (const Label& label : picture.labels)
+      if (label.kind == Label::Kind::value && label.text != "1 N/m") texts += label.text + ';';
+    return std::string(marks_of(picture, scene, {"drive"}).front().mirrored ? "<- " : "-> ") + texts;
+  };
+  CHECK(arrow("type = \"force\", force = \"-10 N\"") == "<- 10 N;");
+  CHECK(arrow("type = \"force\", force = \"10 N\"") == "-> 10 N;");
+  CHECK(arrow("type = \"force\", force = 0") == "-> 0 N;");
+  CHECK(arrow("type = \"motion\", velocity = \"-20 mm/s\"") == "<- 20 mm/s;");
+  CHECK(arrow("type = \"force\", force = { step = \"-3 N\", offset = \"-1 N\" }") == "<- 1 N → 4 N;");
+  CHECK(arrow("type = \"force\", force = { step = \"3 N\", offset = \"-1 N\" }") == "-> −1 N → 2 N;");
+  CHECK(arrow("type = \"force\", force = { ramp = \"-3 N/s\" }") == "<- ramp 3 N per s;");
+  CHECK(arrow("type = \"force\", force = { ramp = \"-3 N/s\", offset = \"-1 N\" }") == "<- ramp 3 N per s + 1 N;");
+  CHECK(arrow("type = \"force\", force = { pulse = \"-3 N\", width = \"1 s\" }") == "<- pulse 3 N, 1 s;");
+  CHECK(arrow("type = \"force\", force = { sine = \"-3 N\", frequency = \"1 Hz\" }").starts_with("-> sine −3 N"));
+}
+
 TEST_CASE("an SVG is well-formed XML that names each element and each node, and is the same each time") {
   const Scene scene = scene_from(zener + servo);
   const std::string text = svg(schematic(scene, {.title = "a < b & \"c\"\x01\xff"}), scene);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <string_view>
 
 #include "core/netlist/switched_function.hpp"
 #include "core/network/component.hpp"
@@ -185,6 +186,21 @@ const SceneFeed* feed_of(const Scene& scene, int element, int parameter) {
   return found == scene.feeds.end() ? nullptr : &*found;
 }
 
+std::string replaced(std::string text, std::string_view old, std::string_view by) {
+  for (std::size_t at = 0; (at = text.find(old, at)) != text.npos; at += by.size()) text.replace(at, old.size(), by);
+  return text;
+}
+
+/// Whether a signal is at or below 0 throughout, and below it at some time; false of shapes of which it is not seen at a glance.
+struct NeverPositive {
+  bool operator()(const Signal::Constant& s) const { return s.value < 0; }
+  bool operator()(const Signal::Step& s) const { return s.offset <= 0 && s.offset + s.height <= 0 && (s.offset < 0 || s.height < 0); }
+  bool operator()(const Signal::Ramp& s) const { return s.slope < 0 && s.offset <= 0; }
+  bool operator()(const Signal::Pulse& s) const { return s.height < 0 && s.offset <= 0; }
+  template <class Other>
+  bool operator()(const Other&) const { return false; }
+};
+
 /// The expression of a block, cut off where it would run into the neighbours of the block.
 std::string shortened(const std::string& expression) {
   constexpr std::size_t most = 28;  // bytes
@@ -207,6 +223,7 @@ std::vector<std::string> signal_of(const Scene& scene, int index, std::size_t wh
   const std::string unit = unit_of_parameter(scene, index, parameter);
   const Signal::Shape& shape = element.signals[which].shape();
   std::vector<std::string> lines{std::visit(Shape{unit, typed}, shape)};
+  if (acts_backward(scene, index)) lines.front() = replaced(replaced(std::move(lines.front()), " − ", " + "), "−", "");
   if (std::string beginning = std::visit(Beginning{typed}, shape); !beginning.empty()) lines.push_back(std::move(beginning));
   return lines;
 }
@@ -238,6 +255,13 @@ std::string engineering(double value, const std::string& unit) {
   power = static_cast<int>(std::floor(std::log10(magnitude * (1 + 1e-9))));
   const std::string factor = number(magnitude / std::pow(10.0, power));
   return sign + (factor == "1" ? "" : factor + "·") + "10" + superscript(power) + plain;
+}
+
+bool acts_backward(const Scene& scene, int index) {
+  const SceneElement& element = scene.elements[static_cast<std::size_t>(index)];
+  const Role role = components()[static_cast<std::size_t>(element.declaration)]->role;
+  if (!element.at || (role != Role::force && role != Role::motion) || element.signals.size() != 1) return false;
+  return !feed_of(scene, index, element.signal_parameters[0]) && std::visit(NeverPositive{}, element.signals[0].shape());
 }
 
 Caption support_caption(const Scene& scene, int element) {

@@ -17,6 +17,9 @@ struct Caption {
 /// Its name and, unless they are left out, its values: those that are not as if they had not been given, in the units of
 /// `typed`, or else as an engineer writes them.
 Caption caption_of(const Scene& scene, int element, bool with_values, const Typed& typed);
+/// Whether a force or motion at one node never acts in the positive direction: its arrow points backward, and its caption
+/// has the value without its sign.
+bool acts_backward(const Scene& scene, int element);
 /// The texts beside the support of a transmission.
 Caption support_caption(const Scene& scene, int element);
 

@@ -126,7 +126,7 @@ Piece Draftsman::omission_in_row(const Block& block) const {
   return piece;
 }
 
-// An arrow towards the node from its left, or from the node to the right.
+// An arrow towards the node from its left, or from the node to the right; backward for what acts in the negative direction.
 void Draftsman::drive(Stand& stand, int element, bool from_left) const {
   const double size = detail_.drive;
   const NodeId node = scene_.elements[static_cast<std::size_t>(element)].a;
@@ -149,7 +149,7 @@ void Draftsman::drive(Stand& stand, int element, bool from_left) const {
   // In the middle of its texts, which are wider than it is.
   const double left = stand.width + (width - size) / 2;
   const Point end{from_left ? left + size : left, 0};
-  stand.ink.marks.push_back({element, {left, -size / 2, left + size, size / 2}, false, {{node, end}}});
+  stand.ink.marks.push_back({element, {left, -size / 2, left + size, size / 2}, acts_backward(scene_, element), {{node, end}}});
   stand.wire(node, {end, {from_left ? stand.width + width : stand.bar, 0}});
   stand.width += width;
 }
@@ -162,7 +162,7 @@ void Draftsman::drive_above(Stand& stand, int element, double& top) const {
   const double y = top - reach.down * size - 4;
   stand.wire(node, {{stand.bar, 0}, {stand.bar, y}});
   stand.ink.marks.push_back(
-      {element, {stand.bar, y - size / 2, stand.bar + size, y + size / 2}, false, {{node, {stand.bar, y}}}});
+      {element, {stand.bar, y - size / 2, stand.bar + size, y + size / 2}, acts_backward(scene_, element), {{node, {stand.bar, y}}}});
   stand.width = std::max(stand.width, stand.bar + size);
   top = y - reach.up * size;
   if (detail_.names) {
