@@ -237,6 +237,21 @@ test('a drive gets another shape, an element another type', async () => {
   await close();
 });
 
+test('the law of an element is shown whole, at every width', async () => {
+  for (const width of [390, 768, 1024, 1440]) {
+    const { page, close } = await open('#file=stick-slip.toml', { viewport: { width, height: 900 } });
+    await symbol(page, 's1').click({ position: { x: 30, y: 4 } });
+    const law = card(page).locator('.card-law .equation');
+    for (const type of ['cfm', 'gear', 'davidenkov', 'lever', 'stop', 'sfm', 'inerter', 'slider']) {
+      await redrawn(page, () => field(page, 'type').selectOption(type));
+      await law.and(page.getByLabel(`Law of ${type}`)).waitFor();
+      const [across, down] = await law.evaluate((host) => [host.scrollWidth - host.clientWidth, host.scrollHeight - host.clientHeight]);
+      assert.ok(across <= 0 && down <= 0, `${type} at ${width} px: ${across}, ${down} px are cut off`);
+    }
+    await close();
+  }
+});
+
 test('the end of an element is dragged to another node, to ground and to a free place', async () => {
   const { page, close } = await open('#file=stick-slip.toml');
   await draw(page);

@@ -14,7 +14,7 @@ export function element(name, attributes = {}, ...children) {
 import { t } from './messages.js';
 
 // Marks for the style sheet the sides on which a scrollable part of the page continues.
-function tellMore(host) {
+export function tellMore(host) {
   const look = () => {
     host.classList.toggle('more-left', host.scrollLeft > 1);
     host.classList.toggle('more-right', host.scrollLeft + host.clientWidth < host.scrollWidth - 1);

@@ -1,7 +1,7 @@
 // The card of an element: name, type, law, nodes, and a field for each of its parameters.
-import katex from 'katex';
 import { element } from './dom.js';
 import { choiceField, readable, valueField } from './fields.js';
+import { lawOf } from './formulas.js';
 import { t } from './messages.js';
 import { richText } from './rich-text.js';
 import { inWords } from './sections.js';
@@ -133,9 +133,7 @@ class ElementCard {
 
   law() {
     if (!this.known) return null;
-    const host = element('div', { class: 'equation', tabindex: '0', role: 'group', 'aria-label': t('Law of {type}', { type: this.type }) });
-    katex.render(this.known.tex, host, { displayMode: true, throwOnError: false, output: 'htmlAndMathml' });
-    return element('div', { class: 'card-law' }, element('p', { class: 'about' }, inWords(this.known.summary)), host);
+    return element('div', { class: 'card-law' }, element('p', { class: 'about' }, inWords(this.known.summary)), lawOf(this.known.tex, this.type));
   }
 
   nodeFields() {

@@ -1,7 +1,8 @@
 // Units and formulas in running text, as a book prints them: N·s/m for N*s/m, and formulas by KaTeX.
 import katex from 'katex';
 import 'katex/dist/katex.min.css';
-import { element } from './dom.js';
+import { element, tellMore } from './dom.js';
+import { t } from './messages.js';
 import { inPrint } from './units.js';
 
 const unit = '(?:[kmµMnG]?(?:N|m|s|g|J|W|Pa|Hz|K)|rad|deg|rpm|min|dyn|cm|mm|cSt|mN|rev)';
@@ -132,6 +133,18 @@ function isFormula(part) {
 function set(tex, source) {
   const host = element('span', { class: 'formula', 'data-source': source });
   katex.render(tex, host, { throwOnError: false, output: 'htmlAndMathml' });
+  return host;
+}
+
+// The law of an element type: its formulas beside each other, and below each other where there is no room.
+export function lawOf(tex, type) {
+  const host = element('div', { class: 'equation', tabindex: '0', role: 'group', 'aria-label': t('Law of {type}', { type }) });
+  for (const part of tex.split(/,\s*\\qquad\s*/)) {
+    const formula = element('div');
+    katex.render(part, formula, { displayMode: true, throwOnError: false, output: 'htmlAndMathml' });
+    host.append(formula);
+  }
+  tellMore(host);
   return host;
 }
 

@@ -1,7 +1,6 @@
 // The parts that a page is made of, each from the data of a scene.
-import katex from 'katex';
 import { element, table } from './dom.js';
-import { typeset, withUnits } from './formulas.js';
+import { lawOf, typeset, withUnits } from './formulas.js';
 import { t } from './messages.js';
 import { priceChart } from './prices.js';
 import { TimeChart, TimeGroup } from './time-chart.js';
@@ -33,13 +32,10 @@ export function explanationOf({ passages, why_not: whyNot }) {
 export function equationsOf(scene) {
   const list = element('div', { class: 'equations' });
   for (const { type, tex, law, summary, notes, source, symbols } of scene.equations) {
-    const equation = element('div', { class: 'equation', tabindex: '0', role: 'group', 'aria-label': t('Law of {type}', { type }) });
-    if (tex) katex.render(tex, equation, { displayMode: true, throwOnError: false, output: 'htmlAndMathml' });
-    else equation.append(element('code', {}, law));
     list.append(
       element('section', { class: 'law' },
         element('h4', {}, element('code', {}, type), ` – ${summary}`),
-        equation,
+        tex ? lawOf(tex, type) : element('div', { class: 'equation' }, element('code', {}, law)),
         symbols.length ? element('p', { class: 'symbols' }, symbols.map(([symbol, name], k) => [k ? ', ' : '', element('i', {}, symbol), ` ${name.replaceAll('_', ' ')}`])) : null,
         notes ? element('p', { class: 'notes' }, inWords(notes)) : null,
         source ? element('p', { class: 'source' }, source) : null),
