@@ -118,6 +118,26 @@ test('plots zoom, and show what is chosen', async () => {
   await context.close();
 });
 
+test('the numbers in tables have six digits at most, but those of a claim that fails', async () => {
+  const claimed = bingham.replace('"100 N*m/rad"', '"123456.789 N*m/rad"').replace('"0.5 N*m*s/rad"', '"0.0001234567891 N*m*s/rad"').concat(`
+[expect]
+"k1.force" = { final = "2.001234567891 N*m", within = "1e-6 N*m" }
+"c1.force" = { final = "0.0012345699 N*m", within = "1e-13 N*m" }
+`);
+  writeFileSync(join(folder, 'claimed.toml'), claimed);
+  await promisify(execFile)(program, ['report', 'claimed.toml', '-o', 'claimed.html'], { cwd: folder }).catch(({ code }) => assert.equal(code, 1));
+  const { context, page, wrong } = await open('claimed.html');
+  const table = (name) => page.locator(`.scroll[aria-label="${name}"] tbody tr`).evaluateAll((rows) => rows.map((row) => [...row.cells].map((cell) => cell.textContent)));
+  assert.match((await table('Elements')).find(([name]) => name === 'k1').at(-1), /^stiffness = 1\.23457e5 N·m\/rad/);
+  assert.match((await table('Elements')).find(([name]) => name === 'c1').at(-1), /1\.23457e-4 N·m·s\/rad/);
+  const [holds, fails] = await table('Claims');
+  assert.deepEqual([holds[1].split(' within')[0], holds[2], holds[3]], ['2.00123 N·m', '2.00123 N·m', 'holds']);
+  assert.deepEqual([fails[1].split(' within')[0], fails[3]], ['0.0012345699 N·m', 'fails']);
+  for (const [time] of await table('Events')) assert.ok(time.replace(/e.*|\./, '').replace(/^0+/, '').length <= 6, time);
+  assert.deepEqual(wrong, []);
+  await context.close();
+});
+
 test('several scenes stand side by side, and whatever they are called does no harm', async () => {
   await rheonet(['report', 'stiff.toml', 'soft.toml', '-o', 'two.html', '--title', 'Stiff & soft'], { cwd: folder });
   const { context, page, wrong } = await open('two.html');

@@ -4,7 +4,7 @@ import { lawOf, typeset, withUnits } from './formulas.js';
 import { t } from './messages.js';
 import { priceChart } from './prices.js';
 import { TimeChart, TimeGroup } from './time-chart.js';
-import { grouped, number, runTime, spaced, timeShown, withUnit } from './units.js';
+import { grouped, number, runTime, shortened, spaced, timeShown, withUnit } from './units.js';
 
 // A text with typeset units and formulas; text between backticks is set as code.
 export const inWords = (text) => text.split(/(`[^`]*`)/).flatMap((part, k) => (k % 2 ? [element('code', {}, part.slice(1, -1))] : typeset(part)));
@@ -45,7 +45,7 @@ export function equationsOf(scene) {
 }
 
 export function elementsOf(scene) {
-  const rows = scene.elements.map(({ name, type, place, values }) => [element('code', {}, name), type, place, withUnits(values.replace(/ {2,}/g, ', '))]);
+  const rows = scene.elements.map(({ name, type, place, values }) => [element('code', {}, name), type, place, withUnits(shortened(values.replace(/ {2,}/g, ', ')))]);
   const all = table([t('element'), t('type'), t('between'), t('values (SI)')], rows, t('Elements'));
   if (scene.element_count > scene.elements.length)
     all.append(element('p', { class: 'note' }, t('and {count} more', { count: grouped(scene.element_count - scene.elements.length) })));
@@ -106,7 +106,7 @@ export function eventsOf(data) {
     return element('span', { class: 'key' }, swatch, `${kind} (${items.filter((item) => item[2] === kind).length})`);
   })));
   const most = 200;
-  const rows = items.slice(0, most).map(([time, name, what, direction]) => [number(time / unit.factor, 8), name, what, String(direction)]);
+  const rows = items.slice(0, most).map(([time, name, what, direction]) => [number(time / unit.factor, 6), name, what, String(direction)]);
   host.append(element('details', {}, element('summary', {}, t('All {count} events', { count: grouped(items.length + left_out) })),
     table([`${t('time')} [${unit.name}]`, t('element'), t('event'), t('direction')], rows, t('Events')),
     items.length + left_out > most ? element('p', { class: 'note' }, t('and {count} more; `rheonet run --events` lists all', { count: grouped(items.length + left_out - most) })) : null));
@@ -139,7 +139,9 @@ export function statisticsOf(data) {
 export function claimsOf(data) {
   const claims = data.done?.claims ?? [];
   if (!claims.length) return null;
-  return table([t('claim'), t('claimed'), t('found'), t('verdict')], claims.map(({ name, claimed, found, holds }) => [withUnits(name), withUnits(claimed), withUnits(found),
+  // Of a claim that fails the difference may be in a late digit.
+  const said = (text, holds) => withUnits(holds ? shortened(text) : text);
+  return table([t('claim'), t('claimed'), t('found'), t('verdict')], claims.map(({ name, claimed, found, holds }) => [withUnits(name), said(claimed, holds), said(found, holds),
     element('span', { class: holds ? 'holds' : 'fails' }, holds ? t('holds') : t('fails'))]), t('Claims'));
 }
 

@@ -33,6 +33,12 @@ export function number(value, digits = 4) {
   return value.toExponential(Math.max(0, digits - 2)).replace(/(\.\d*?)0+e/, '$1e').replace('.e', 'e').replace('e+', 'e');
 }
 
+// A text in which numbers have six digits at most.
+export const shortened = (text) => text.replace(/(?<![\w.])\d+(?:\.\d+)?(?:e[+-]?\d+)?(?![\w.])/g, (found) => {
+  const value = Number(found);
+  return found.replace(/e.*|\./g, '').replace(/^0+/, '').length > 6 ? number(value, value >= 1e-3 && value < 1e5 ? 6 : 7) : found;
+});
+
 // A value among others that are `spacing` apart: as many digits as tell it from them, and no fewer than `least`.
 export function spaced(value, spacing, least = 2) {
   if (!Number.isFinite(value) || !(spacing > 0)) return number(value, least);
