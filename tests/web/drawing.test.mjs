@@ -252,6 +252,27 @@ test('the law of an element is shown whole, at every width', async () => {
   }
 });
 
+test('an element is added in series with another one, and parallel to it, by one click', async () => {
+  const { page, close } = await open('#file=stick-slip.toml');
+  await symbol(page, 'k1').click();
+  await redrawn(page, () => card(page).getByRole('button', { name: 'in parallel' }).click());
+  assert.equal(await line(page, 'dashpot1'), 'dashpot1 = { type = "dashpot", between = ["hand", "block"], damping = "1 N*s/m" }');
+  assert.match(await card(page).textContent(), /dashpot1: dashpot/);
+  await symbol(page, 's1').click({ position: { x: 30, y: 4 } });
+  await field(page, 'add').selectOption('vfm');
+  await redrawn(page, () => card(page).getByRole('button', { name: 'in series' }).click());
+  assert.equal(await line(page, 's1'), 's1 = { type = "slider", between = ["block", "a"], coulomb = "1 N", breakaway = "2 N" }');
+  assert.match(await line(page, 'vfm1'), /^vfm1 = \{ type = "vfm", between = \["a", "ground"\]/);
+  // One step of undo for each.
+  await page.locator('.drawing').click({ position: { x: 12, y: 12 } });
+  await redrawn(page, () => page.keyboard.press('Control+z'));
+  assert.equal(await line(page, 's1'), 's1 = { type = "slider", between = ["block", "ground"], coulomb = "1 N", breakaway = "2 N" }');
+  assert.equal(await line(page, 'vfm1'), undefined);
+  await symbol(page, 'm1').click();
+  assert.equal(await card(page).getByRole('button', { name: 'in series' }).count(), 0);
+  await close();
+});
+
 test('the end of an element is dragged to another node, to ground and to a free place', async () => {
   const { page, close } = await open('#file=stick-slip.toml');
   await draw(page);

@@ -244,8 +244,19 @@ export class Drawing {
   place() {
     const { type, nodes } = this.placing;
     this.cancel();
+    this.add(type, nodes, nodes.map((node) => this.domainAt(node)).find((each) => each !== this.domain) ?? this.domain);
+  }
+
+  // A new element of another type beside one of two nodes: between the same nodes, or behind it, with a new node between the two.
+  addBeside(entry, type, domain, inSeries) {
+    if (this.cannot()) return;
+    const [first, second] = this.netlist.portsOf(entry).filter(({ key }) => key === 'between');
+    const between = this.netlist.freshNode();
+    this.add(type, [inSeries ? between : first.node, second.node], domain, inSeries ? this.netlist.connect(second.path, between) : []);
+  }
+
+  add(type, nodes, domain, changes = []) {
     const known = this.catalogue.find(type);
-    const domain = nodes.map((node) => this.domainAt(node)).find((each) => each !== this.domain) ?? this.domain;
     const wiring = nodes.length > 1 ? [`between = [${nodes.map((node) => JSON.stringify(node)).join(', ')}]`] : nodes.map((node) => `at = ${JSON.stringify(node)}`);
     const name = this.netlist.freshName(type, nodes);
     if (known?.group === 'Signals' && known.most_inputs > 0) {
@@ -254,7 +265,7 @@ export class Drawing {
       wiring.push(`in = ${known.most_inputs > 1 ? `[${inputs.join(', ')}]` : inputs[0]}`);
     }
     const parameters = known ? this.catalogue.firstValues(known, domain) : this.firstOfOwn(type);
-    this.edit([...this.netlist.addElement(name, type, wiring, parameters), ...this.recordOf(name, nodes)]);
+    this.edit([...changes, ...this.netlist.addElement(name, type, wiring, parameters), ...this.recordOf(name, nodes)]);
     this.inspector.show({ element: name }, true, false); // The next element is placed after this one.
   }
 

@@ -50,7 +50,7 @@ class ElementCard {
     const parts = [
       this.origin(), this.nameField(), isGroup ? null : this.typeField(), this.law(), ...this.nodeFields(),
       ...(isGroup ? this.members(this.value, this.path) : this.parameters(this.path, this.value, this.type)),
-      this.foot(),
+      this.neighbours(), this.foot(),
     ].filter(Boolean);
     return { heading: this.heading, parts, fields: this.fields, wrong: (mistakes) => this.wrong(mistakes), refresh: () => this.refresh(), move: (changes) => this.sliders?.move(changes) };
   }
@@ -146,6 +146,17 @@ class ElementCard {
       const fresh = this.netlist.freshNode();
       return choiceField({ label, value: node, options: [...options, [`+${fresh}`, t('new node {node}', { node: fresh })]], onset: (name) => this.edit(this.netlist.connect(path, name.replace(/^\+/, ''))) }).row;
     });
+  }
+
+  // Adds an element in series with this one or parallel to it.
+  neighbours() {
+    if (this.netlist.portsOf(this.entry).filter(({ key }) => key === 'between').length !== 2) return null;
+    const { catalogue, ownTypes } = this.drawing;
+    const types = [...catalogue.types.filter(({ nodes, group }) => nodes.length === 2 && group !== 'Transmissions').map(({ type }) => type[this.domain]), ...ownTypes.filter(([, , ports]) => ports === 2).map(([name]) => name)];
+    const { row, input } = choiceField({ label: t('add'), value: this.type === 'spring' ? 'dashpot' : 'spring', options: types.map((type) => [type, type]), onset: () => {} });
+    const button = (text, inSeries) => element('button', { type: 'button', onclick: () => this.drawing.addBeside(this.entry, input.value, this.domain, inSeries) }, text);
+    row.append(element('span', { class: 'neighbours' }, button(t('in series'), true), button(t('in parallel'), false)));
+    return row;
   }
 
   // Members of a group, each with its parameters.
