@@ -1,7 +1,7 @@
 // The schematic of the playground: it moves as the network does, and can be read whatever it does and wherever it is.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { setUp, stickSlip } from './desk.mjs';
+import { netlist, redrawn, setUp, shows, stickSlip } from './desk.mjs';
 
 // A row that is wider than a phone, whose middle moves further than its texts are apart.
 const maxwell = `[elements]
@@ -53,7 +53,18 @@ soil = { type = "slider", between = ["pile", "ground"], coulomb = "90 kN" }
 stop = "0.8 s"
 record = ["hammer.position", "pile.position"]
 `;
-const desk = setUp({ 'driver.toml': driver, 'rotor.toml': rotor, 'stop.toml': stop, 'maxwell.toml': maxwell, 'held.toml': held, 'stick-slip.toml': stickSlip });
+// A block that a force pushes against a spring.
+const oscillator = `[elements]
+push = { type = "force", at = "block", force = "1 N" }
+block = { type = "mass", at = "block", mass = "1 kg" }
+k = { type = "spring", between = ["block", "ground"], stiffness = "100 N/m" }
+[nodes]
+block = { position = "5 mm" }
+[simulate]
+stop = "2 s"
+record = ["block.position"]
+`;
+const desk = setUp({ 'oscillator.toml': oscillator, 'driver.toml': driver, 'rotor.toml': rotor, 'stop.toml': stop, 'maxwell.toml': maxwell, 'held.toml': held, 'stick-slip.toml': stickSlip });
 const { open } = desk;
 
 // Goes to a part of the run.
@@ -200,6 +211,44 @@ test('forces are arrows to a scale that is shown, and energy is bars', async () 
   assert.ok(Math.abs(supplied - 5) < 0.25 && Math.abs(stored - 5) < 0.25 && dissipated < 0.01, `${supplied} ${stored} ${dissipated}`);
   await page.locator('[data-shows="forces"]').uncheck();
   assert.equal(await page.locator('.force-arrows').isVisible(), false);
+  await close();
+});
+
+test('a mass that is pulled starts where it is let go, and a drive gets another value', async () => {
+  const { page, close } = await open('#file=oscillator.toml');
+  const handle = page.locator('.element-handle[data-of="block"]');
+  const middle = async () => {
+    const { x, y, width, height } = await handle.boundingBox();
+    return [x + width / 2, y + height / 2];
+  };
+  const mm = async () => Number(/position = "(-?[\d.]+) mm"/.exec(await netlist(page))[1]);
+  const [x, y] = await middle();
+  const symbol = () => page.locator('[data-element="block"] path').first().evaluate((path) => path.getBoundingClientRect().x);
+  const before = await symbol();
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  await redrawn(page, () => page.mouse.move(x + 12, y, { steps: 4 }));
+  const [first, moved] = [await mm(), (await symbol()) - before];
+  assert.ok(first > 5 && Math.abs(moved - 12) < 0.5, `${first} mm, ${moved} px`);
+  await redrawn(page, () => page.mouse.move(x - 6, y, { steps: 4 }));
+  assert.ok(Math.abs((await mm()) - 5 + (first - 5) / 2) < 0.02 * first, String(await mm()));
+  await page.mouse.up();
+  assert.equal(await page.locator('button.play').getAttribute('aria-pressed'), 'true'); // It swings.
+  assert.equal(await page.locator('.inspector').isVisible(), false);
+  await page.locator('button.play').click();
+  await shows(page, 0.001, 'block.position', await mm(), 0.02);
+  await handle.click();
+  await page.locator('.inspector').waitFor();
+  // A drive.
+  const force = async () => Number(/force = "(-?[\d.]+) N"/.exec(await netlist(page))[1]);
+  assert.equal(await force(), 1);
+  const push = page.locator('.element-handle[data-of="push"]');
+  const box = await push.boundingBox();
+  await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
+  await page.mouse.down();
+  await redrawn(page, () => page.mouse.move(box.x + box.width / 2 + 30, box.y + box.height / 2, { steps: 4 }));
+  await page.mouse.up();
+  assert.ok((await force()) > 1.2, String(await force()));
   await close();
 });
 

@@ -12,6 +12,7 @@ import { number, shownIn, timeShown, withUnit } from './units.js';
 const lengths = [2, 4, 8, 16, 32, 64]; // Durations of a playback [s].
 const usual = 8; // Default duration [s].
 const stepwise = matchMedia('(prefers-reduced-motion: reduce)');
+export const calm = () => stepwise.matches;
 const step = 500; // Time between two pictures for users who prefer reduced motion [ms].
 const gapOfTurning = 8; // Largest gap between the plates of a rotational stop [px].
 
@@ -22,6 +23,7 @@ export class Animation {
     this.follower = follower;
     this.playing = false;
     this.place = 0; // Position in the run, 0 to 1.
+    this.held = 0; // Scale of lengths that does not change while somebody pulls at the schematic [px/m].
     this.button = element('button', { type: 'button', class: 'play', 'aria-pressed': 'false', onclick: () => this.toggle() }, t('▶ Play'));
     this.scrub = element('input', { type: 'range', min: '0', max: '1000', value: '0', 'aria-label': t('Time') });
     this.scrub.addEventListener('input', () => {
@@ -56,6 +58,7 @@ export class Animation {
       return;
     }
     this.scale = new MotionScale(data, beside?.hasCurves ? new MotionScale(beside) : null);
+    if (this.held) this.scale.px = this.held;
     if (this.svg !== svg) this.take(svg);
     this.bounds = this.boundsOf(data.scene.elements);
     this.wires.forEach(({ node, name }) => node.classList.toggle('runs', this.scale.runs(name)));

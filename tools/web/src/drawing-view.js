@@ -74,7 +74,7 @@ export class DrawingView {
   listenToMouse() {
     let from = null;
     this.host.addEventListener('pointerdown', (event) => {
-      const isEmpty = !event.target.closest('[data-element], text, path.node');
+      const isEmpty = !event.target.closest('[data-element], .pulls, text, path.node');
       if (event.pointerType !== 'mouse' || event.button !== 0 || !isEmpty || event.defaultPrevented || !this.scroller) return;
       from = { x: event.clientX + this.scroller.scrollLeft, y: event.clientY + this.scroller.scrollTop };
     });

@@ -7,6 +7,7 @@ import { Inspector } from './inspector.js';
 import { t } from './messages.js';
 import { NetworkText } from './network-text.js';
 import { Palette } from './palette.js';
+import { pullOf } from './pull.js';
 
 // The schematic without elements: only ground.
 const emptyPicture = () => `<svg viewBox="0 0 320 90" class="empty-picture" fill="none" stroke="currentColor" stroke-width="1.4" aria-label="${t('Empty schematic')}">
@@ -26,6 +27,7 @@ export class Drawing {
       onpick: (target, byKey, event) => this.pick(target, byKey, event),
       onconnect: (name, from, target) => this.connect(name, from, target),
       onremove: (name) => this.remove(name),
+      pullOf: (name) => pullOf(this.desk, name),
     });
     this.inspector = new Inspector(this, cards);
     this.build(bar);

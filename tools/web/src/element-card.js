@@ -201,18 +201,13 @@ class ElementCard {
   // The field of the value at a path, with its slider if it is a number.
   fieldOf(path, options) {
     const value = this.netlist.root.at(...path);
-    const named = this.namedBy(value);
+    const named = this.netlist.parameterOf(value);
     if (named) options = { ...options, description: [options.description, t('{name} = {value}, a parameter of the netlist', { name: value.plain, value: readable(this.netlist, named) })].filter(Boolean).join(' – ') };
     const field = valueField({ value: readable(this.netlist, value), ...options });
     const knob = value?.node && this.knobs.get((named ?? value).node.range[0]);
     if (knob) field.input.after(knob);
     this.fields.push({ path, field });
     return field.row;
-  }
-
-  // The parameter of the netlist that a value names.
-  namedBy(value) {
-    return typeof value?.plain === 'string' ? this.netlist.root.at('parameters', value.plain) : null;
   }
 
   // Updates the sliders from the fields.
@@ -256,13 +251,7 @@ class ElementCard {
   // The numbers in the entry, and the numbers of the parameters that it refers to.
   knobsIn(value) {
     const { desk, scene } = this.drawing;
-    const starts = new Set();
-    const gather = (each) => {
-      if (each.kind === 'value') starts.add((this.namedBy(each) ?? each).node.range[0]);
-      each.items.forEach(gather);
-      for (const entry of each.entries.values()) gather(entry.value);
-    };
-    gather(value);
+    const starts = this.netlist.numbersIn(value);
     return scene.sliders.filter(({ line, column }) => starts.has(desk.editor.offset(line, column)));
   }
 

@@ -12,12 +12,13 @@ function shape(tag, attributes) {
 export class Handles {
   // onpick(target): something was clicked, or chosen with Enter; onconnect(element, from, target): the end of an element that was at
   // the node `from` was dropped on a target; onremove(element): the Delete key. A target is { element }, { node }, or {} for a free
-  // place.
-  constructor(host, { onpick, onconnect, onremove }) {
+  // place. pullOf(element): what happens while an element is dragged, { move(px), end() }, or null.
+  constructor(host, { onpick, onconnect, onremove, pullOf }) {
     this.host = host;
     this.onpick = onpick;
     this.onconnect = onconnect;
     this.onremove = onremove;
+    this.pullOf = pullOf;
     this.place = 0; // which handle the Tab key reaches
     this.buttons = [];
     // In the capture phase, before the handler that moves the whole drawing.
@@ -75,8 +76,8 @@ export class Handles {
     const { x, y, width, height } = part.getBBox();
     const of = part.dataset.element;
     const room = Math.max(0, 10 - height / 2); // a thin symbol can be hit too
-    const rect = shape('rect', { class: 'element-handle', x, y: y - room, width, height: height + 2 * room, rx: 4, 'data-of': of });
     const type = part.getAttribute('class').split(' ')[0];
+    const rect = shape('rect', { class: `element-handle${['mass', 'force', 'motion'].includes(type) ? ' pulls' : ''}`, x, y: y - room, width, height: height + 2 * room, rx: 4, 'data-of': of });
     this.makeButton(rect, `${of}, ${scene.elements.find((each) => each.name === of)?.type ?? type}`);
     const title = shape('title', {});
     title.textContent = part.querySelector('title')?.textContent ?? of;
@@ -117,6 +118,9 @@ export class Handles {
   targetOf(node) {
     const handle = node?.closest?.('[data-at], [data-of]');
     if (handle?.dataset.of) return { element: handle.dataset.of };
+    // In motion the symbol of an element is beside its handle.
+    const part = node?.closest?.('[data-element]');
+    if (part) return { element: part.dataset.element };
     return handle ? { node: handle.dataset.at } : {};
   }
 
@@ -152,26 +156,48 @@ export class Handles {
 
   down(event) {
     const end = event.target.closest('.end-handle');
-    if (!end || event.button !== 0) return;
-    event.preventDefault();
+    const part = event.target.closest('.pulls, .mass, .force, .motion');
+    if (event.button !== 0) return;
+    if (end) event.preventDefault();
+    if (end) this.drag(event, this.reconnecting(end));
+    else if (part) this.drag(event, this.pulling(this.pullOf(part.dataset.of ?? part.dataset.element), event.clientX));
+  }
+
+  pulling(pull, from) {
+    return pull && { move: (x) => pull.move(x - from), finish: (isDragged) => isDragged && pull.end() };
+  }
+
+  reconnecting(end) {
     const { svg, line } = this;
     const inDrawing = (x, y) => new DOMPoint(x, y).matrixTransform(svg.getScreenCTM().inverse());
+    return {
+      move(clientX, clientY) {
+        const { x, y } = inDrawing(clientX, clientY);
+        line.setAttribute('d', `M${end.getAttribute('cx')} ${end.getAttribute('cy')}L${x} ${y}`);
+        line.setAttribute('visibility', 'visible');
+      },
+      finish: (isDragged, { type, clientX, clientY }) => {
+        line.setAttribute('visibility', 'hidden');
+        const target = isDragged && type === 'pointerup' ? this.at(clientX, clientY) : null;
+        if (target) this.onconnect(end.dataset.endOf, end.dataset.at, target.element ? { node: this.nearestEnd(target.element, clientX, clientY) } : target);
+      },
+    };
+  }
+
+  drag(event, act) {
+    if (!act) return;
     const begin = { x: event.clientX, y: event.clientY };
     const move = ({ clientX, clientY }) => {
       if (!this.dragged && Math.hypot(clientX - begin.x, clientY - begin.y) < 6) return;
       this.dragged = true;
-      const { x, y } = inDrawing(clientX, clientY);
-      line.setAttribute('d', `M${end.getAttribute('cx')} ${end.getAttribute('cy')}L${x} ${y}`);
-      line.setAttribute('visibility', 'visible');
+      act.move(clientX, clientY);
     };
-    const finish = ({ type, clientX, clientY }) => {
+    const finish = (last) => {
       for (const kind of ['pointermove', 'pointerup', 'pointercancel']) removeEventListener(kind, kind === 'pointermove' ? move : finish);
-      line.setAttribute('visibility', 'hidden');
-      if (!this.dragged) return;
+      const isDragged = this.dragged;
       // The click that follows at the same place is none; there is not always one.
-      setTimeout(() => (this.dragged = false));
-      const target = type === 'pointerup' ? this.at(clientX, clientY) : null;
-      if (target) this.onconnect(end.dataset.endOf, end.dataset.at, target.element ? { node: this.nearestEnd(target.element, clientX, clientY) } : target);
+      if (isDragged) setTimeout(() => (this.dragged = false));
+      act.finish(isDragged, last);
     };
     addEventListener('pointermove', move);
     addEventListener('pointerup', finish);

@@ -50,6 +50,19 @@ export class NetworkText extends NetlistText {
     return [...(this.element(name)?.entries.values() ?? [])].filter((entry) => !inWiring.has(entry.name));
   }
 
+  // The places of the numbers in a value, and of those of the parameters that it names.
+  numbersIn(value, found = new Set()) {
+    if (value.kind === 'value') found.add((this.parameterOf(value) ?? value).node.range[0]);
+    value.items.forEach((item) => this.numbersIn(item, found));
+    for (const entry of value.entries.values()) this.numbersIn(entry.value, found);
+    return found;
+  }
+
+  // The parameter that a value names.
+  parameterOf(value) {
+    return typeof value?.plain === 'string' ? this.root.at('parameters', value.plain) : null;
+  }
+
   // A name that no element and no node has.
   freshName(word, taken = []) {
     const all = new Set([...this.elementNames, ...this.nodeNames, ...(this.root.at('parameters')?.entries.keys() ?? []), ...taken, 'ground']);

@@ -40,6 +40,10 @@ class Slider {
     this.show();
   }
 
+  get steps() {
+    return steps;
+  }
+
   get path() {
     return `${this.knob.group}.${this.knob.name}`;
   }

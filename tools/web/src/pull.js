@@ -1,0 +1,51 @@
+// Pulling at the schematic: a mass that is dragged starts elsewhere, and a drive gets another value. The run follows at once.
+import { calm } from './animation.js';
+
+const steps = 2; // Steps of the slider of a drive for a pixel.
+const whereNothingMoves = 1e-3; // m for a pixel
+const turning = 0.02; // rad for a pixel
+const inUnits = { m: [1e3, 'mm'], rad: [1, 'rad'] };
+
+// What happens while the element of a name is dragged: { move(px), end() }; null for an element that cannot be pulled. `desk`: the playground.
+export function pullOf(desk, name) {
+  const { drawing, sliders } = desk;
+  const element = drawing.scene?.elements.find((each) => each.name === name);
+  if (!element || drawing.isOn || !drawing.isNew || !drawing.read() || !drawing.netlist.element(name)) return null;
+  if (element.type === 'mass' || element.type === 'inertia') return ofMass(desk, element.a);
+  const numbers = drawing.netlist.numbersIn(drawing.netlist.element(name));
+  const slider = sliders.all.find(({ from }) => numbers.has(from));
+  if (!slider) return null;
+  const place = slider.place();
+  return {
+    move(px) {
+      sliders.held = slider;
+      slider.slide(slider.valueAt(Math.min(slider.steps, Math.max(0, place + Math.round(steps * px)))));
+    },
+    end: () => (sliders.held = null),
+  };
+}
+
+function ofMass({ drawing, animation, editor, view, course }, node) {
+  const { data } = animation;
+  const column = data?.column(`${node}.position`);
+  const isGiven = drawing.scene.elements.some(({ type, a }) => type === 'motion' && a === node);
+  if (!column?.length || isGiven || !drawing.netlist.nodeNames.includes(node)) return null;
+  const record = data.records[data.index.get(`${node}.position`)];
+  const [factor, unit] = inUnits[record.unit];
+  const start = column[0];
+  const { px } = animation.scale;
+  const perPixel = record.unit === 'rad' ? turning : px > 0 ? 1 / px : whereNothingMoves;
+  return {
+    move(far) {
+      if (!drawing.read()) return;
+      animation.rewind();
+      animation.held = px;
+      const value = Number(((start + (far / view.shown) * perPixel) * factor).toPrecision(3));
+      editor.replaceAll(drawing.netlist.set(['nodes', node, 'position'], JSON.stringify(`${value} ${unit}`)));
+    },
+    end() {
+      animation.held = 0;
+      if (!calm() && !course.isConcealing) animation.start();
+    },
+  };
+}
