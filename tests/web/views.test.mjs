@@ -106,6 +106,23 @@ test('the presentation has question, schematic, plot and sliders on one screen, 
   }
 });
 
+test('the presentation of a comparison has both schematics where there is room, and none is cut off', async () => {
+  for (const [width, height, count] of [[1024, 768, 2], [390, 844, 1], [844, 390, 1]]) {
+    const { page, close } = await open(file, { viewport: { width, height } });
+    await page.getByRole('button', { name: 'Compare' }).click();
+    await page.locator('.beside svg').waitFor();
+    await page.locator('button.present').click();
+    const what = `${width} x ${height}`;
+    assert.deepEqual(await beyond(page, ['.drawing', '.beside', '.plots .chart', '[data-slider] input[type="range"]']), [], what);
+    const cut = await page.locator('.drawings > :visible').evaluateAll((all) => all.map((host) => {
+      const [outer, inner] = [host, host.querySelector('svg')].map((node) => node.getBoundingClientRect());
+      return Math.max(outer.top - inner.top, inner.bottom - outer.bottom);
+    }));
+    assert.ok(cut.length === count && cut.every((px) => px < 1), `${what}: ${cut}`);
+    await close();
+  }
+});
+
 test('in the presentation nothing covers a button of the bar', async () => {
   const { page, close } = await open(file, { viewport: { width: 1366, height: 768 } });
   await redrawn(page, () => number(page, 'parameters.k').fill('50').then(() => number(page, 'parameters.k').press('Enter')));
