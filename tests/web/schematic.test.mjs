@@ -64,7 +64,25 @@ block = { position = "5 mm" }
 stop = "2 s"
 record = ["block.position"]
 `;
-const desk = setUp({ 'oscillator.toml': oscillator, 'driver.toml': driver, 'rotor.toml': rotor, 'stop.toml': stop, 'maxwell.toml': maxwell, 'held.toml': held, 'stick-slip.toml': stickSlip });
+// A block that is pulled away to the right, until it has gone 50 mm in 1 s.
+const leaving = `[parameters]
+X = "50 mm"
+[elements]
+block = { type = "mass", at = "block", mass = "1 kg" }
+pull = { type = "force", at = "block", force = "0.1 N" }
+[simulate]
+stop = "9 s"
+stop_when = "block.position > X"
+record = ["block.position"]
+`;
+const high = `[elements]
+drive = { type = "motion", at = "a", velocity = "1 mm/s" }
+${[...Array(6).keys()].map((k) => `k${k} = { type = "spring", between = ["a", "ground"], stiffness = ${k + 1} }`).join('\n')}
+[simulate]
+stop = 1
+record = ["k0.force"]
+`;
+const desk = setUp({ 'leaving.toml': leaving, 'high.toml': high, 'oscillator.toml': oscillator, 'driver.toml': driver, 'rotor.toml': rotor, 'stop.toml': stop, 'maxwell.toml': maxwell, 'held.toml': held, 'stick-slip.toml': stickSlip });
 const { open } = desk;
 
 // Goes to a part of the run.
@@ -287,6 +305,30 @@ test('texts of a schematic in motion stay apart from each other, from the ground
     assert.ok(moved > 10, String(moved));
     await close();
   }
+});
+
+test('the animation ends where a condition ends the run, and what leaves the drawing stays in sight', async () => {
+  const { page, close } = await open('#file=leaving.toml');
+  await at(page, 1);
+  const end = Number.parseFloat(await page.locator('.clock').textContent());
+  assert.ok(Math.abs(end - 1) < 2e-3, String(end));
+  const [svg, room] = await page.evaluate(() => ['svg', '.schematic'].map((part) => document.querySelector(`.drawing ${part}`).getBoundingClientRect().right));
+  assert.ok(room > svg + 40, `${svg}, ${room}`); // as far as a symbol moves
+  assert.equal(await page.locator('.drawing svg').evaluate((picture) => getComputedStyle(picture).overflow), 'visible');
+  await close();
+});
+
+test('a schematic that is higher than its place fades below', async () => {
+  const { page, close } = await open('#file=high.toml', { viewport: { width: 1200, height: 700 } });
+  const schematic = page.locator('.drawing .schematic');
+  const sides = () => schematic.evaluate((host) => ['more-above', 'more-below'].filter((side) => host.classList.contains(side)));
+  await page.waitForFunction(() => document.querySelector('.drawing .schematic').classList.contains('more-below'));
+  await schematic.evaluate((host) => (host.scrollTop = 20));
+  await page.waitForFunction(() => document.querySelector('.drawing .schematic').classList.contains('more-above'));
+  await page.locator('.zoom button', { hasText: 'Fit' }).click();
+  await page.waitForFunction(() => document.querySelector('.drawing .schematic').classList.length === 1);
+  assert.deepEqual(await sides(), []);
+  await close();
 });
 
 test('a schematic that goes on beyond its edge fades there', async () => {

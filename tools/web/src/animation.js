@@ -106,7 +106,7 @@ export class Animation {
   }
 
   showSpeeds() {
-    const { start, stop } = this.data.scene;
+    const { start, stop } = this.data.span;
     const chosen = Number(this.speed.value) || usual;
     const span = stop - start;
     const options = lengths.map((length) => [length, span / length]);
@@ -149,7 +149,8 @@ export class Animation {
   draw() {
     const { data, scale } = this;
     if (!this.parts || !data?.time.length) return;
-    const time = data.scene.start + this.place * (data.scene.stop - data.scene.start);
+    const { start, stop } = data.span;
+    const time = start + this.place * (stop - start);
     const i = data.at(time);
     const shift = (node) => scale.shift(node, i);
     for (const { node, name } of this.wires) {
@@ -166,7 +167,7 @@ export class Animation {
     this.energy.hidden = !this.shows('energy');
     if (!this.energy.hidden) this.bars.show(time);
     this.scrub.value = String(Math.round(this.place * 1000));
-    const { name, factor } = timeShown(data.scene.start, data.scene.stop);
+    const { name, factor } = timeShown(start, stop);
     this.clock.textContent = `${number(time / factor, 4)} ${name}`;
     this.scrub.setAttribute('aria-valuetext', this.clock.textContent);
     if (this.playing || this.place > 0) this.onframe(time);
@@ -175,7 +176,7 @@ export class Animation {
 
   follow(leader, time) {
     if (!this.parts) return;
-    const { start, stop } = this.data.scene;
+    const { start, stop } = this.data.span;
     this.place = Math.min(1, Math.max(0, (time - start) / (stop - start)));
     this.toggles.forces.firstChild.checked = leader.shows('forces');
     this.forces.scales = leader.forces.scales;

@@ -18,9 +18,12 @@ export function tellMore(host) {
   const look = () => {
     host.classList.toggle('more-left', host.scrollLeft > 1);
     host.classList.toggle('more-right', host.scrollLeft + host.clientWidth < host.scrollWidth - 1);
+    host.classList.toggle('more-above', host.scrollTop > 1);
+    host.classList.toggle('more-below', host.scrollTop + host.clientHeight < host.scrollHeight - 1);
   };
   host.addEventListener('scroll', look);
-  new ResizeObserver(look).observe(host);
+  const watch = new ResizeObserver(look);
+  for (const part of [host, ...host.children]) watch.observe(part);
 }
 
 export function table(headings, rows, caption) {

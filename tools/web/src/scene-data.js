@@ -52,6 +52,12 @@ export class SceneData {
     return this.time.length > 1 && this.time.at(-1) > this.time[0];
   }
 
+  // The time that the run takes; a condition may end it before its `stop`.
+  get span() {
+    const { start, stop } = this.scene;
+    return { start, stop: this.done && this.hasCurves ? this.time.at(-1) : stop };
+  }
+
   // Whether there is an energy account; a run that was cut short has none.
   get hasEnergy() {
     return Boolean(this.energy) && this.energy.time.length > 1;
