@@ -213,6 +213,7 @@ class Playground {
     this.view.attach();
     this.parts.animation.hidden = true;
     this.drawn = null;
+    this.showBeside(this.variants[1 - this.active]);
     this.drawing.clear();
     this.showTitle('');
     this.showLesson({});

@@ -193,14 +193,13 @@ export class SweepPanel {
     this.chart = null;
     this.pick = null;
     this.drawnOf = this.request.text;
-    const isDone = x.length + failed.length === numbers.length;
     const host = element('div');
     const { knob, measure, record, other } = this;
     const name = measure.isOfRun ? measure.label : measure.isOfTwo ? `${other} – ${record}` : `${measure.label}: ${record}`;
     this.drawn = [
       wrong ? element('p', { class: 'note bad' }, wrong) : null,
       x.length > 1 ? host : null,
-      x.length > 1 && isDone ? this.point(x, y, unit, name) : null,
+      x.length > 1 && !this.control ? this.point(x, y, unit, name) : null,
       element('p', { class: 'note', role: 'status' }, t('{done} of {all} runs', { done: x.length + failed.length, all: numbers.length })),
       failed.length ? element('p', { class: 'note bad' }, t('{count} of the runs failed. The first: {failure}', { count: failed.length, failure: failed[0] })) : null,
     ].filter(Boolean);
