@@ -10,7 +10,7 @@ const inUnits = { m: [1e3, 'mm'], rad: [1, 'rad'] };
 export function pullOf(desk, name) {
   const { drawing, sliders } = desk;
   const element = drawing.scene?.elements.find((each) => each.name === name);
-  if (!element || drawing.isOn || !drawing.isNew || !drawing.read() || !drawing.netlist.element(name)) return null;
+  if (!element || desk.course.isConcealing || drawing.isOn || !drawing.isNew || !drawing.read() || !drawing.netlist.element(name)) return null;
   if (element.type === 'mass' || element.type === 'inertia') return ofMass(desk, element.a);
   const numbers = drawing.netlist.numbersIn(drawing.netlist.element(name));
   const slider = sliders.all.find(({ from }) => numbers.has(from));
@@ -25,10 +25,10 @@ export function pullOf(desk, name) {
   };
 }
 
-function ofMass({ drawing, animation, editor, view, course }, node) {
+function ofMass({ drawing, animation, editor, view }, node) {
   const { data } = animation;
   const column = data?.column(`${node}.position`);
-  const isGiven = drawing.scene.elements.some(({ type, a }) => type === 'motion' && a === node);
+  const isGiven = drawing.netlist.root.at('simulate', 'start_from') || drawing.scene.elements.some(({ type, a }) => type === 'motion' && a === node);
   if (!column?.length || isGiven || !drawing.netlist.nodeNames.includes(node)) return null;
   const record = data.records[data.index.get(`${node}.position`)];
   const [factor, unit] = inUnits[record.unit];
@@ -45,7 +45,7 @@ function ofMass({ drawing, animation, editor, view, course }, node) {
     },
     end() {
       animation.held = 0;
-      if (!calm() && !course.isConcealing) animation.start();
+      if (!calm()) animation.start();
     },
   };
 }
