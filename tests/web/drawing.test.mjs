@@ -382,6 +382,26 @@ test('length, rows and records of the run', async () => {
   await close();
 });
 
+test('the card of the run keeps what is typed, and its button closes it', async () => {
+  const { page, close } = await open('#file=stick-slip.toml');
+  await draw(page);
+  await page.getByRole('button', { name: 'Run …' }).click();
+  // The records that are ticked are read while the next field is written.
+  await redrawn(page, async () => {
+    await field(page, 's1.force').check();
+    await field(page, 'stop').click();
+    await page.keyboard.press('Control+a');
+    await page.keyboard.type('4 s', { delay: 150 });
+    await page.keyboard.press('Enter');
+  });
+  assert.equal(await line(page, 'stop'), 'stop = "4 s"');
+  assert.equal(await field(page, 'stop').inputValue(), '4 s');
+  await card(page).getByRole('button', { name: 'Close the card' }).click({ timeout: 3000 });
+  await card(page).waitFor({ state: 'hidden' });
+  assert.equal(await line(page, 'stop'), 'stop = "4 s"');
+  await close();
+});
+
 test('every element type of rheonet is in the palette', async () => {
   const { page, close } = await open('#file=stick-slip.toml');
   await draw(page);

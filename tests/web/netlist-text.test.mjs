@@ -145,6 +145,20 @@ test('an element goes with all that is recorded and claimed of it, and of nodes 
     '[elements]\nk1 = { type = "spring", between = ["a", "b"], stiffness = 1 }\n# stays\n[nodes]\na = { position = 1 }\n[simulate]\nstop = 1\nrecord = ["a.position", "b.position", "k1.force"]\n');
 });
 
+test('what is recorded, claimed and given of a node that an element leaves follows to its new node', () => {
+  const small = '[elements]\nm1 = { type = "mass", at = "a", mass = 1 }\nk1 = { type = "spring", between = ["b", "ground"], stiffness = 1 }\n[nodes]\na = { position = 1 }\n[simulate]\nstop = 1\nrecord = ["a.position", "k1.force"]\n[expect]\na.position = { max = 2 }\n';
+  const moved = (text, node) => edited(text, (netlist) => netlist.connect(['elements', 'm1', 'at'], node)).result;
+  assert.equal(moved(small, 'b'), small.replace('at = "a"', 'at = "b"').replace('"a.position"', '"b.position"').replaceAll('\na', '\nb'));
+  // Nothing is recorded twice.
+  const both = small.replace('"k1.force"', '"b.position"');
+  assert.match(moved(both, 'b'), /record = \["b.position"\]/);
+  // A node that has another element keeps what is its own.
+  const shared = small.replace('["b"', '["a"');
+  assert.equal(moved(shared, 'b'), shared.replace('at = "a"', 'at = "b"'));
+  // Ground has neither records nor start values.
+  assert.equal(edited(small, (netlist) => netlist.renameNode('a', 'ground')).result, small.replace('at = "a"', 'at = "ground"').replace('"a.position", ', '').replace('a = { position = 1 }\n', '').replace('a.position = { max = 2 }\n', ''));
+});
+
 test('a number that TOML knows stands without quotes, all else in them', () => {
   for (const [text, toml] of [['1', '1'], ['-2.5e3', '-2.5e3'], ['1 N', '"1 N"'], ['.5', '".5"'], ['01', '"01"'], ['5.', '"5."'], ['2*k', '"2*k"'], ['a "b"', '"a \\"b\\""'], ['inf', '"inf"']]) {
     assert.equal(valueOf(text), toml);

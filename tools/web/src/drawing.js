@@ -254,7 +254,7 @@ export class Drawing {
     if (this.cannot()) return;
     const [first, second] = this.netlist.portsOf(entry).filter(({ key }) => key === 'between');
     const between = this.netlist.freshNode();
-    this.add(type, [inSeries ? between : first.node, second.node], domain, inSeries ? this.netlist.connect(second.path, between) : []);
+    this.add(type, [inSeries ? between : first.node, second.node], domain, inSeries ? this.netlist.wire(second.path, between) : []);
   }
 
   add(type, nodes, domain, changes = []) {

@@ -18,6 +18,14 @@ export class Inspector {
     this.host = host;
     this.target = null;
     host.hidden = true;
+    // The field with text that is not in the netlist yet: the card keeps its fields meanwhile.
+    this.typed = null;
+    host.addEventListener('input', ({ target }) => target.type === 'text' && (this.typed = target));
+    for (const kind of ['change', 'focusout'])
+      host.addEventListener(kind, () => {
+        this.typed = null;
+        if (this.isLate) this.follow();
+      });
   }
 
   // `focus`: move the keyboard focus into the card; `scroll`: scroll it into view.
@@ -70,8 +78,9 @@ export class Inspector {
     }
     // Sliders exist only after rheonet has read the text.
     const isSame = next === this.card || (this.shown && shapeOf(next, drawing.isNew) === shapeOf(this.card, drawing.isNew));
+    this.isLate = !isSame && this.shown && Boolean(this.typed);
     if (isSame) this.refresh();
-    else this.replace(next);
+    else if (!this.isLate) this.replace(next);
     this.tell(this.card.wrong?.(drawing.mistakes) ?? []);
   }
 
@@ -98,6 +107,7 @@ export class Inspector {
     const label = this.host.contains(document.activeElement) ? document.activeElement.closest('.field')?.querySelector('label')?.textContent ?? document.activeElement.className : null;
     const open = new Set([...this.host.querySelectorAll('details[open] > summary')].map(({ textContent }) => textContent));
     const { scrollTop } = this.host;
+    this.typed = null;
     this.card = card;
     this.shown = true;
     this.wrong = element('div', { class: 'inspector-wrong', role: 'alert' });

@@ -98,9 +98,16 @@ export class NetworkText extends NetlistText {
   }
 
   // Another node at one end of an element.
-  connect(path, node) {
+  wire(path, node) {
     const { range: [from, to] } = this.root.at(...path).node;
     return [{ from, to, insert: JSON.stringify(node) }];
+  }
+
+  // The same, where nothing else is done to the netlist. If no other end is at the node before, all that refers to it follows to the new one.
+  connect(path, node) {
+    const old = this.root.at(...path).plain;
+    const ends = this.elementNames.flatMap((name) => this.portsOf(name)).filter((port) => port.node === old);
+    return old !== 'ground' && ends.length === 1 ? this.renameNode(old, node) : this.wire(path, node);
   }
 
   // Every place where a path or an expression over paths may stand, with the text between its quotes.
@@ -159,16 +166,41 @@ export class NetworkText extends NetlistText {
     return changes;
   }
 
-  // Also joins two nodes: `name` may be that of another one.
+  // Also joins two nodes: `name` may be that of another one, whose records and claims are not doubled, or ground, which has none.
   renameNode(old, name) {
     const shared = this.elementNames.includes(old);
-    const changes = this.elementNames.flatMap((element) => this.portsOf(element)).filter(({ node }) => node === old).flatMap(({ path }) => this.connect(path, name));
+    const gone = this.withoutPaths((path, others) => {
+      const [owner, channel] = [path.split('.')[0], path.split('.').at(-1)];
+      return owner === old && ofNodes.has(channel) && (name === 'ground' || others.includes(`${name}.${channel}`));
+    });
+    const changes = this.elementNames.flatMap((element) => this.portsOf(element)).filter(({ node }) => node === old).flatMap(({ path }) => this.wire(path, name));
     const entry = this.root.at('nodes')?.entries.get(old);
     if (entry && (name === 'ground' || this.root.at('nodes', name))) changes.push(...this.remove(['nodes', old]));
     else if (entry) changes.push(...entry.keys.map(({ range: [from, to] }) => ({ from, to, insert: keyOf(name) })));
     changes.push(...this.renamedPaths(old, name, (channel) => shared && !ofNodes.has(channel)));
     for (const { node, inner, path } of this.references())
       if (path[0] === 'plot' && path[1] === 'phase' && inner.slice(1, -1) === old) changes.push({ from: node.range[0] + 1, to: node.range[1] - 1, insert: name });
+    return [...gone, ...changes.filter(({ from, to }) => !gone.some((other) => other.from <= from && to <= other.to))];
+  }
+
+  // Removes records and claims. isGone(path, all): `all` are the paths of the same list.
+  withoutPaths(isGone) {
+    const changes = [];
+    const plain = (path) => path.replace(/^-/, '');
+    const record = this.root.at('simulate', 'record');
+    if (record?.kind === 'array') {
+      const paths = record.items.map((item) => (typeof item.plain === 'string' ? plain(item.plain) : null));
+      const gone = paths.map((path) => path !== null && isGone(path, paths));
+      // An empty list would record nothing at all: without it everything is.
+      if (gone.length && gone.every(Boolean)) changes.push(...this.remove(['simulate', 'record']));
+      else changes.push(...this.withoutItems(record.node.elements, (_, k) => gone[k]));
+    }
+    for (const table of ['expect', 'exact']) {
+      const entries = [...(this.root.at(table)?.entries.values() ?? [])];
+      // k1.force without quotes is a table k1 that has an entry `force`.
+      const claims = entries.flatMap(({ name, value }) => (value.kind === 'table' && !name.includes('.') ? [...value.entries.keys()].map((key) => ({ name: `${name}.${key}`, path: [name, key] })) : [{ name, path: [name] }]));
+      for (const { name, path } of claims) if (isGone(name, claims.map((claim) => claim.name))) changes.push(...this.remove([table, ...path]));
+    }
     return changes;
   }
 
@@ -176,21 +208,11 @@ export class NetworkText extends NetlistText {
   removeElement(name) {
     const orphans = this.portsOf(name).map(({ node }) => node).filter((node) => node !== 'ground' && this.elementsAt(node).every((other) => other === name));
     const isGone = (path) => {
-      const [owner, channel] = [path.replace(/^-/, '').split('.')[0], path.split('.').at(-1)];
+      const [owner, channel] = [path.split('.')[0], path.split('.').at(-1)];
       if (orphans.includes(owner) && ofNodes.has(channel)) return true;
       return owner === name && !(this.nodeNames.includes(name) && ofNodes.has(channel));
     };
-    const changes = this.remove(['elements', name]);
-    const record = this.root.at('simulate', 'record');
-    if (record?.kind === 'array') {
-      const gone = record.items.map((item) => typeof item.plain === 'string' && isGone(item.plain));
-      // An empty list would record nothing at all: without it everything is.
-      if (gone.length && gone.every(Boolean)) changes.push(...this.remove(['simulate', 'record']));
-      else changes.push(...this.withoutItems(record.node.elements, (_, k) => gone[k]));
-    }
-    for (const table of ['expect', 'exact'])
-      for (const entry of this.root.at(table)?.entries.values() ?? [])
-        if (isGone(entry.value.kind === 'table' && entry.name === name ? `${entry.name}.force` : entry.name)) changes.push(...this.remove([table, entry.name]));
+    const changes = [...this.remove(['elements', name]), ...this.withoutPaths(isGone)];
     for (const node of orphans) changes.push(...this.remove(['nodes', node]));
     return changes;
   }
