@@ -7,7 +7,8 @@ import { test } from 'node:test';
 import { fileURLToPath } from 'node:url';
 import { deflateRawSync } from 'node:zlib';
 import { netlist, number, redrawn, setUp } from './desk.mjs';
-import { accessible, bingham } from './support.mjs';
+import { networkInterfaces } from 'node:os';
+import { accessible, bingham, done, folderWith, remove, serve } from './support.mjs';
 
 const teaching = join(dirname(fileURLToPath(import.meta.url)), '../../netlists/teaching');
 const demos = readdirSync(teaching).filter((name) => name.endsWith('.toml'));
@@ -80,5 +81,51 @@ test('the QR code holds the address', async () => {
   assert.deepEqual([...drawn].sort(), expected.sort());
   assert.match(await page.textContent('dialog[open]'), new RegExp(`The link has ${address.length} characters[^]*Only this machine can open this address`));
   await accessible(page, 'QR code');
+  await close();
+});
+
+test('the link of a server for others opens in a fresh browser, which saves nothing in the folder', async (test) => {
+  const near = Object.values(networkInterfaces()).flat().find(({ family, internal }) => family === 'IPv4' && !internal);
+  if (!near) return test.skip('this machine has no network');
+  const folder = folderWith({ 'bingham.toml': bingham });
+  const server = await serve(folder, '--host', '0.0.0.0');
+  const own = await desk.chromium.newContext({ permissions: ['clipboard-read', 'clipboard-write'] });
+  const page = await own.newPage();
+  await page.goto(`${server.address}#file=bingham.toml`);
+  await done(page);
+  await linkOf(page);
+  await page.waitForFunction(() => /The link is copied/.test(document.querySelector('.toast').textContent));
+  assert.doesNotMatch(await page.textContent('.toast'), /Only this machine/);
+  const link = await page.evaluate(() => navigator.clipboard.readText());
+  assert.match(link, new RegExp(`^http://[\\d.]+:${server.port}/\\?guest=\\w{32}#s=`));
+  await own.close();
+  const fresh = await desk.chromium.newContext();
+  const student = await fresh.newPage();
+  await student.goto(link);
+  await done(student);
+  assert.equal(await netlist(student), bingham);
+  await student.reload();
+  await done(student);
+  // Here the browser gives no clipboard: the address of the page is the link.
+  await student.locator('button', { hasText: 'Link' }).click();
+  await student.waitForFunction(() => /The (address|link)/.test(document.querySelector('.toast').textContent));
+  assert.match(student.url(), /\?guest=\w{32}#s=/);
+  await student.locator('button', { hasText: 'Save' }).click();
+  assert.deepEqual(await student.locator('.menu-list:visible button').allTextContents(), ['Download the netlist', 'Make a lesson']);
+  const { searchParams } = new URL(link);
+  const answer = await fetch(`${server.origin}/api/save`, { method: 'POST', headers: { Authorization: `Bearer ${searchParams.get('guest')}`, 'Content-Type': 'application/json' }, body: JSON.stringify({ file: 'new.toml', text: bingham }) });
+  assert.equal(answer.status, 403);
+  assert.deepEqual(readdirSync(folder), ['bingham.toml']);
+  assert.equal((await fetch(`${server.origin}/?guest=${'0'.repeat(32)}`)).status, 401);
+  assert.equal((await fetch(`${server.origin}/?guest=`)).status, 401);
+  await fresh.close();
+  await server.stop();
+  remove(folder);
+});
+
+test('where only this machine can open the link, the page says so when it copies it', async () => {
+  const { page, close } = await open('#file=bingham.toml', { permissions: ['clipboard-read', 'clipboard-write'] });
+  await linkOf(page);
+  await page.waitForFunction(() => /The link is copied: .* Only this machine can open this address/.test(document.querySelector('.toast').textContent));
   await close();
 });

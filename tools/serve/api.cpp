@@ -102,7 +102,8 @@ void add_headers(httplib::Server& server, const std::string& framed_by) {
 
 }  // namespace
 
-void Api::attach(Server& server, const std::string& host, const std::string& framed_by) {
+void Api::attach(Server& server, const std::string& host, const std::string& shared, const std::string& framed_by) {
+  shared_ = shared;
   add_headers(server, framed_by);
   server.set_pre_routing_handler([this, host](const Request& request, Response& response) {
     using Handled = httplib::Server::HandlerResponse;
@@ -119,17 +120,22 @@ void Api::attach(Server& server, const std::string& host, const std::string& fra
   page("/playground.css", web::playground_style());
   page("/playground.js", web::playground_script());
   page("/licences.txt", web::notice());
-  server.Get("/api/folder", [this](const Request&, Response& response) { list(response); });
+  server.Get("/api/folder", [this](const Request& request, Response& response) { list(request, response); });
   server.Get("/api/scene", [this](const Request& request, Response& response) { open(request, response); });
-  server.Post("/api/save", [this](const Request&, Response& response, const Reader& body) { save(response, body); });
+  server.Post("/api/save", [this](const Request& request, Response& response, const Reader& body) { save(request, response, body); });
   server.Post("/api/task", [this](const Request&, Response& response, const Reader& body) { start(response, body); });
   server.set_exception_handler([](const Request&, Response& response, std::exception_ptr) {
     refuse(response, 500, "the request could not be answered");
   });
 }
 
-void Api::list(Response& response) const {
+void Api::list(const Request& request, Response& response) const {
   json listing = listing_of(folder_);
+  if (!keys_.is_owner(request)) listing["may_be_written"] = false;
+  // Whoever sees the page by an address of the network shares that one: the machine may have several networks.
+  const std::string host = request.get_header_value("Host");
+  const std::string address = is_this_machine(without_port(host)) ? shared_ : "http://" + host + "/";
+  if (!address.empty()) listing["link"] = address + keys_.guest_query();
   listing["seconds"] = pool_.limits().seconds;
   send_text(response, report::to_line(listing), "application/json");
 }
@@ -141,7 +147,8 @@ void Api::open(const Request& request, Response& response) const {
   send_text(response, netlist->text, "text/plain; charset=utf-8");
 }
 
-void Api::save(Response& response, const Reader& body) {
+void Api::save(const Request& asked, Response& response, const Reader& body) {
+  if (!keys_.is_owner(asked)) return refuse(response, 403, "this page was opened by a link for others, which saves nothing in the folder: download the netlist");
   const std::optional<json> request = read(response, body);
   if (!request) return;
   if (!request->contains("text") || !(*request)["text"].is_string()) return refuse(response, 400, "there is no text to save");

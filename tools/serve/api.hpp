@@ -17,18 +17,18 @@ class Api {
  public:
   Api(Folder& folder, Pool& pool, Keys& keys) : folder_(folder), pool_(pool), keys_(keys) {}
 
-  /// Adds the routes. `host` is the address that the server listens at; `framed_by` is the origin whose pages may embed the page in a frame,
-  /// "": none.
-  void attach(Server& server, const std::string& host, const std::string& framed_by);
+  /// Adds the routes. `host` is the address that the server listens at; `shared` is the address of the page for other machines, "": none;
+  /// `framed_by` is the origin whose pages may embed the page in a frame, "": none.
+  void attach(Server& server, const std::string& host, const std::string& shared, const std::string& framed_by);
 
  private:
   using Reader = httplib::ContentReader;
   using Request = httplib::Request;
   using Response = httplib::Response;
 
-  void list(Response& response) const;
+  void list(const Request& request, Response& response) const;
   void open(const Request& request, Response& response) const;
-  void save(Response& response, const Reader& body);
+  void save(const Request& request, Response& response, const Reader& body);
   void start(Response& response, const Reader& body);
   struct Newest {
     std::weak_ptr<Job> job;
@@ -41,6 +41,7 @@ class Api {
   Folder& folder_;
   Pool& pool_;
   Keys& keys_;
+  std::string shared_;
   std::mutex mutex_;
   std::map<std::string, Newest> sessions_;
 };

@@ -14,15 +14,6 @@
 namespace rheonet::serve {
 namespace {
 
-/// The host without its port: "localhost" of "localhost:8017", "::1" of "[::1]:8017".
-std::string without_port(const std::string& host) {
-  if (host.starts_with('[')) {
-    const std::size_t end = host.find(']');
-    return end == std::string::npos ? "" : host.substr(1, end - 1);
-  }
-  return host.substr(0, host.find(':'));
-}
-
 bool is_address(const std::string& text) {
   unsigned char address[sizeof(in6_addr)];
   return inet_pton(AF_INET, text.c_str(), address) == 1 || inet_pton(AF_INET6, text.c_str(), address) == 1;
@@ -78,19 +69,31 @@ std::string cookie_of(const httplib::Request& request, const std::string& name) 
 
 }  // namespace
 
+std::string without_port(const std::string& host) {
+  if (host.starts_with('[')) {
+    const std::size_t end = host.find(']');
+    return end == std::string::npos ? "" : host.substr(1, end - 1);
+  }
+  return host.substr(0, host.find(':'));
+}
+
 Keys::Keys(int port, bool framed)
-    : token_(random_word()), page_key_(random_word()), cookie_(fmt::format("rheonet-{}", port)), code_(random_code()), framed_(framed) {}
+    : token_(random_word()), guest_(random_word()), page_key_(random_word()), cookie_(fmt::format("rheonet-{}", port)), code_(random_code()), framed_(framed) {}
 
 bool Keys::admit(const httplib::Request& request, httplib::Response& response) const {
-  if (is_same(request.get_header_value("Authorization"), "Bearer " + token_)) return true;
-  if (is_same(request.get_param_value("token"), token_)) {
+  if (is_same(request.get_param_value("token"), token_) || (!request.path.starts_with("/api/") && is_same(request.get_param_value("guest"), guest_))) {
     // SameSite=Lax: the browser also sends the cookie when a link of another site opens the page. The cookie alone gives no access to the
     // folder.
     response.set_header("Set-Cookie", fmt::format("{}={}; Path=/; HttpOnly; SameSite=Lax", cookie_, page_key_));
     return true;
   }
+  if (is_owner(request) || is_same(request.get_header_value("Authorization"), "Bearer " + guest_)) return true;
   if (framed_ && (request.path == "/playground.js" || request.path == "/playground.css")) return true;
   return !request.path.starts_with("/api/") && is_same(cookie_of(request, cookie_), page_key_);
+}
+
+bool Keys::is_owner(const httplib::Request& request) const {
+  return is_same(request.get_header_value("Authorization"), "Bearer " + token_) || is_same(request.get_param_value("token"), token_);
 }
 
 bool Keys::may_try() {

@@ -14,6 +14,9 @@ namespace rheonet::serve {
 /// request to /api/. A cookie is not safe enough for that: browsers send it to every port of the machine, and a port may belong
 /// to another user. The cookie that is set with the page therefore holds another key, which only loads the page again.
 ///
+/// Links for others contain the key of guests in place of the token. It opens the page, the netlists and the runs, but saves nothing: a
+/// class that has the link of a lesson cannot change the files of the teacher.
+///
 /// For typing on another machine there is a shorter address, with a code of 8 letters and digits (40 random bits), which redirects to the
 /// address with the token. Wrong codes are answered at a limited rate, so that the code cannot be guessed: half of all codes take 3500 years
 /// at 5 tries a second.
@@ -26,8 +29,12 @@ class Keys {
 
   /// The query string of the page's address: "?token=...".
   std::string query() const { return "?token=" + token_; }
-  /// Whether a request may be answered. A request with the token in its address gets the cookie.
+  /// The query string of a page for guests: "?guest=...".
+  std::string guest_query() const { return "?guest=" + guest_; }
+  /// Whether a request may be answered. A request with the token or the key of guests in its address gets the cookie.
   bool admit(const httplib::Request& request, httplib::Response& response) const;
+  /// Whether a request to /api/ has the token itself, and may write.
+  bool is_owner(const httplib::Request& request) const;
 
   /// "abcd-efgh", the path of the short address.
   std::string short_path() const { return code_.substr(0, 4) + '-' + code_.substr(4); }
@@ -37,12 +44,15 @@ class Keys {
  private:
   bool may_try();
 
-  std::string token_, page_key_, cookie_, code_;
+  std::string token_, guest_, page_key_, cookie_, code_;
   bool framed_;
   std::mutex mutex_;
   double tries_ = 20;  ///< Number of tries that are answered without delay.
   std::chrono::steady_clock::time_point last_try_ = std::chrono::steady_clock::now();
 };
+
+/// The host without its port: "localhost" of "localhost:8017", "::1" of "[::1]:8017".
+std::string without_port(const std::string& host);
 
 /// Whether a host can be reached only from this machine.
 bool is_this_machine(const std::string& host);

@@ -108,6 +108,13 @@ std::vector<std::string> hosts_of(const std::string& host) {
   return hosts;
 }
 
+/// The address of the page for other machines; "" if there is none.
+std::string shared_address(const std::string& host, int port) {
+  for (const std::string& each : hosts_of(host))
+    if (!is_this_machine(each)) return address_of(each, port);
+  return "";
+}
+
 /// Prints the addresses of the playground and who can reach it.
 void announce(const ServeArguments& wanted, const Folder& folder, const Keys& keys, int port) {
   const std::vector<std::string> hosts = hosts_of(wanted.host);
@@ -136,7 +143,7 @@ ExitStatus listen(const ServeArguments& wanted, Folder& folder) {
   }
   Keys keys(port, !wanted.framed_by.empty());
   Api api(folder, pool, keys);
-  api.attach(server, wanted.host, wanted.framed_by);
+  api.attach(server, wanted.host, shared_address(wanted.host, port), wanted.framed_by);
   const std::atomic<bool>& interrupted = end_on_signals();
   // A server that does not listen yet ignores `stop`.
   std::atomic<bool> ended = false;

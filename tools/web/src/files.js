@@ -8,7 +8,7 @@ import { lessonFileOf } from './lesson-text.js';
 import { titleOf } from './lesson.js';
 import { decode, encode } from './link.js';
 import { t } from './messages.js';
-import { showCode } from './qr-dialog.js';
+import { isReachable, showCode, unreachable } from './qr-dialog.js';
 import { SaveDialog } from './save-dialog.js';
 
 const pause = 400; // Delay after a change until it is kept [ms]: browsers limit the rate of writes to the history.
@@ -245,25 +245,28 @@ export class Files {
   putInAddress() {
     const { course, variants, plots } = this.desk;
     const { asOpened } = this;
-    if (course.isOn && !asOpened.lesson) return;
     const scenes = course.isOn ? [asOpened] : variants.map(({ file, text }) => ({ file, text }));
-    history.replaceState(history.state, '', `#${encode({ scenes, plots: plots.state })}`);
+    const hash = course.isOn && !asOpened.lesson ? location.hash : `#${encode({ scenes, plots: plots.state })}`;
+    // A server that others can reach gives a key for them.
+    const link = `${this.folder.link ?? ''}${hash}`;
+    history.replaceState(history.state, '', link.startsWith(location.origin) ? link : hash);
+    return this.folder.link ? link : location.href;
   }
 
   showCode() {
-    this.putInAddress();
-    showCode(location.href);
+    showCode(this.putInAddress());
   }
 
   async copyLink() {
-    this.putInAddress();
+    const address = this.putInAddress();
     const isLesson = this.desk.course.isOn;
+    const limits = location.protocol === 'file:' ? t('It opens only where this file is at the same place.') : isReachable(address) ? '' : unreachable();
+    let text = isLesson ? t('The link is copied: it opens the lesson.') : t('The link is copied: it carries the scene.');
     try {
-      await navigator.clipboard.writeText(location.href);
-      const text = isLesson ? t('The link is copied: it opens the lesson.') : t('The link is copied: it carries the scene.');
-      this.desk.answer(location.protocol === 'file:' ? `${text} ${t('It opens only where this file is at the same place.')}` : text);
+      await navigator.clipboard.writeText(address);
     } catch {
-      this.desk.answer(isLesson ? t('The address of this page opens the lesson.') : t('The address of this page carries the scene.'));
+      text = isLesson ? t('The address of this page opens the lesson.') : t('The address of this page carries the scene.');
     }
+    this.desk.answer([text, limits].filter(Boolean).join(' '));
   }
 }

@@ -301,7 +301,7 @@ class Playground {
     this.toast.setAttribute('aria-hidden', String(!undo));
     this.toast.hidden = false;
     clearTimeout(this.toasted);
-    this.toasted = setTimeout(() => (this.toast.hidden = true), undo ? 8000 : 4000);
+    this.toasted = setTimeout(() => (this.toast.hidden = true), undo || text.length > 100 ? 8000 : 4000);
   }
 
   // Stays until the next change.

@@ -16,8 +16,11 @@ function picture(address) {
   return host;
 }
 
-// Whether others can open the address: one of this machine, or of a file on it, leads nowhere elsewhere.
-const isReachable = () => location.protocol !== 'file:' && !/^(localhost|127\.|\[::1\])/.test(location.hostname);
+// Whether others can open the address: one of this machine leads nowhere elsewhere.
+export function isReachable(address) {
+  return !/^(file:|https?:\/\/(localhost|127\.|\[::1\]))/.test(address);
+}
+export const unreachable = () => t('Only this machine can open this address. A phone needs the page of a web site, or of `rheonet serve --host 0.0.0.0`.');
 
 export function showCode(address) {
   const dialog = element('dialog', { class: 'help', 'aria-labelledby': 'qr-title' },
@@ -26,7 +29,7 @@ export function showCode(address) {
       ? element('p', { class: 'note bad' }, t('The link has {count} characters, and a QR code holds {most}. Send the link itself.', { count: address.length, most }))
       : picture(address),
     element('p', { class: 'note' }, t('The link has {count} characters, and carries the scene.', { count: address.length })),
-    isReachable() ? null : element('p', { class: 'note bad' }, t('Only this machine can open this address. A phone needs the page of a web site, or of `rheonet serve --host 0.0.0.0`.')));
+    isReachable(address) ? null : element('p', { class: 'note bad' }, unreachable()));
   dialog.addEventListener('close', () => dialog.remove());
   document.body.append(dialog);
   dialog.showModal();

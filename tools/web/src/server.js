@@ -5,25 +5,30 @@ const asJson = { 'Content-Type': 'application/json' };
 
 // The token of the address that the server has printed. It leaves the address, which people copy, for the storage of this origin,
 // where the page finds it when it is loaded again; pages of other ports or hosts cannot read it there.
-function takeToken() {
-  const key = 'token';
+function take(key) {
   const given = new URLSearchParams(location.search).get(key);
   try {
     if (given) localStorage.setItem(key, given);
     // In a frame of another page no cookie loads the page again, and nobody copies its address.
-    if (given && window === top) history.replaceState(history.state, '', location.pathname + location.hash);
+    if (given && key === 'token' && window === top) history.replaceState(history.state, '', location.pathname + location.hash);
     return given ?? localStorage.getItem(key) ?? '';
   } catch {
     return given ?? ''; // without storage it stays in the address
   }
 }
-const token = takeToken();
+// The key of a link for others stays in the address, for it saves nothing in the folder. It is used where there is no token, or one of an earlier start.
+const guest = take('guest');
+let token = take('token') || guest;
 
 async function ask(path, options = {}) {
   const response = await fetch(path, { ...options, headers: { ...options.headers, Authorization: `Bearer ${token}` } }).catch((error) => {
     if (error.name === 'AbortError') throw error;
     throw new Error(t('the server does not answer: is `rheonet serve` still running?'));
   });
+  if (response.status === 401 && guest && token !== guest) {
+    token = guest;
+    return ask(path, options);
+  }
   if (response.ok) return response;
   const { error, version } = await response.json().catch(() => ({}));
   throw Object.assign(new Error(error ?? t('the server answers {status}', { status: response.status })), { there: response.status === 409 ? version : '' });
