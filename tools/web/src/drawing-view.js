@@ -11,9 +11,11 @@ export class DrawingView {
     this.host = host;
     this.zoom = null; // null: not chosen by the user.
     this.most = 1; // Largest automatic zoom.
+    this.least = legible; // Smallest automatic zoom.
+    this.others = []; // Views that the buttons change too.
     const button = (text, label, act) => element('button', { type: 'button', 'aria-label': /\w/.test(text) ? null : label, title: label, onclick: act }, text);
     this.controls = element('div', { class: 'zoom', role: 'group', 'aria-label': t('Size of the schematic') },
-      button('−', t('Smaller'), () => this.by(1 / factor)), button('+', t('Larger'), () => this.by(factor)), button(t('Fit'), t('All of the schematic'), () => this.fit()));
+      button('−', t('Smaller'), () => this.all((view) => view.by(1 / factor))), button('+', t('Larger'), () => this.all((view) => view.by(factor))), button(t('Fit'), t('All of the schematic'), () => this.all((view) => view.fit())));
     new ResizeObserver(() => this.place()).observe(host);
     host.addEventListener('wheel', (event) => {
       if (!event.ctrlKey) return;
@@ -22,6 +24,10 @@ export class DrawingView {
     }, { passive: false });
     this.listenToMouse();
     this.listenToFingers();
+  }
+
+  all(act) {
+    for (const view of [this, ...this.others]) act(view);
   }
 
   // Call for a new drawing.
@@ -43,7 +49,7 @@ export class DrawingView {
   }
 
   get shown() {
-    return this.zoom ?? Math.min(this.most, Math.max(legible, this.whole));
+    return this.zoom ?? Math.min(this.most, Math.max(this.least, this.whole));
   }
 
   place() {

@@ -6,7 +6,7 @@ import './motion.css';
 import './presentation.css';
 import { Animation } from './animation.js';
 import { Drawing } from './drawing.js';
-import { element, schematicOf } from './dom.js';
+import { element, legible, schematicOf } from './dom.js';
 import { Editor } from './editor.js';
 import { choices } from './choices.js';
 import { DrawingView } from './drawing-view.js';
@@ -124,7 +124,9 @@ class Playground {
         box('more', t('More'), part('sections')))));
     this.view = new DrawingView(this.parts.drawing);
     this.besideView = new DrawingView(this.beside);
+    this.view.others = [this.besideView];
     this.parts.drawing.parentNode.before(this.view.controls);
+    new ResizeObserver(() => this.arrange()).observe(this.parts.drawing.parentNode);
     new ResizeObserver(() => document.body.style.setProperty('--bar', `${bar.offsetHeight}px`)).observe(bar);
     this.lesson.hidden = true;
     this.toast = element('p', { class: 'toast', hidden: true, 'aria-hidden': 'true' });
@@ -355,10 +357,21 @@ class Playground {
       this.besideView.attach();
     }
     this.drawnBeside = scene?.schematic;
+    this.arrange();
     if (!scene) return;
     this.beside.dataset.label = other.label;
     this.beside.style.order = this.active ? -1 : 0; // A is before B.
     this.besideAnimation.attach(this.beside.querySelector('svg'), other.data, this.current.data);
+  }
+
+  // Two schematics are side by side where their letters are large enough for that, and below each other elsewhere.
+  arrange() {
+    const least = 0.8; // letters of 8 px
+    const drawings = this.parts.drawing.parentNode;
+    const views = this.beside.hidden ? [] : [this.view, this.besideView].filter(({ svg }) => svg);
+    drawings.classList.toggle('stacked', views.some(({ size }) => (drawings.clientWidth - 12) / 2 < least * size.width));
+    this.view.least = this.besideView.least = views.length && !drawings.classList.contains('stacked') ? least : legible;
+    this.view.all((view) => view.place());
   }
 
   showLesson(scene) {
