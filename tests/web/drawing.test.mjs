@@ -402,6 +402,18 @@ test('the card of the run keeps what is typed, and its button closes it', async 
   await close();
 });
 
+test('unfolded parameters of a card stay so when one of them is given', async () => {
+  const { page, close } = await open('#file=stick-slip.toml');
+  await symbol(page, 'k1').click({ position: { x: 8, y: 4 } });
+  await card(page).getByText('More parameters').click();
+  await redrawn(page, () => card(page).getByRole('button', { name: 'Give rest' }).click());
+  await card(page).getByText('More parameters (3)').waitFor();
+  assert.ok(await card(page).locator('details.others').evaluate(({ open }) => open));
+  const over = await card(page).evaluate((host) => [...host.querySelectorAll('input')].filter((input) => input.offsetParent).map((input) => input.getBoundingClientRect().right - host.getBoundingClientRect().left - host.clientWidth));
+  assert.ok(over.every((px) => px <= -4), String(over));
+  await close();
+});
+
 test('every element type of rheonet is in the palette', async () => {
   const { page, close } = await open('#file=stick-slip.toml');
   await draw(page);

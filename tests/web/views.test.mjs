@@ -123,6 +123,32 @@ test('the presentation of a comparison has both schematics where there is room, 
   }
 });
 
+test('a comparison shows both schematics whole, with their letters', async () => {
+  for (const width of [768, 1024, 1200, 1380, 1440]) {
+    const { page, close } = await open(file, { viewport: { width, height: 860 } });
+    await page.getByRole('button', { name: 'Compare' }).click();
+    await page.locator('.beside svg').waitFor();
+    await page.waitForTimeout(200);
+    const shown = await page.locator('.drawings > div').evaluateAll((all) => all.map((host) => {
+      const schematic = host.querySelector('.schematic');
+      return [getComputedStyle(host, '::before').content, schematic.scrollWidth - schematic.clientWidth <= 1 && schematic.scrollHeight - schematic.clientHeight <= 1];
+    }));
+    assert.deepEqual(shown, [['"B"', true], ['"A"', true]], String(width));
+    await close();
+  }
+});
+
+test('on a phone the tools of the schematic are beside the buttons of its size, and nothing sticks above the plots', async () => {
+  const { page, close } = await open(file, { viewport: { width: 390, height: 844 } });
+  await page.getByRole('button', { name: 'Draw', exact: true }).click();
+  await page.locator('.palette-type').first().waitFor();
+  const [run, zoom] = [await page.getByRole('button', { name: 'Run …' }).boundingBox(), await page.locator('.zoom').boundingBox()];
+  assert.ok(run.x + run.width <= zoom.x || run.y >= zoom.y + zoom.height);
+  await page.locator('.palette.more-right').waitFor();
+  assert.equal(await page.locator('.sliders-box').evaluate((box) => getComputedStyle(box).position), 'static');
+  await close();
+});
+
 test('in the presentation nothing covers a button of the bar', async () => {
   const { page, close } = await open(file, { viewport: { width: 1366, height: 768 } });
   await redrawn(page, () => number(page, 'parameters.k').fill('50').then(() => number(page, 'parameters.k').press('Enter')));

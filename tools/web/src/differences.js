@@ -38,6 +38,14 @@ export function difference(first, second, path) {
   return { largest, at, scale, rms: count ? Math.sqrt(squares / count) : 0 };
 }
 
+// The record of the force of a drive that both scenes have, if their elements are others: numbers of other elements have no counterpart.
+function fairRecord(first, others) {
+  const elementsOf = ({ data }) => (data.scene.elements ?? []).map(({ name, type }) => `${name}:${type}`).sort().join();
+  if (others.every((run) => elementsOf(run) === elementsOf(first))) return '';
+  const drives = (first.data.scene.elements ?? []).filter(({ type }) => type === 'motion').map(({ name }) => `${name}.force`);
+  return drives.find((path) => [first, ...others].every(({ data }) => data.records.some((record) => record.path === path))) ?? '';
+}
+
 export function differencesOf(runs) {
   const [first, ...others] = runs;
   const rows = [];
@@ -50,5 +58,7 @@ export function differencesOf(runs) {
         largest > 0 ? `${number(at)}\u00a0s` : '–', withUnit(rms, unit)]);
     }
   if (!rows.length) return element('p', { class: 'note' }, t('The scenes record nothing under the same name and in the same unit.'));
-  return table([t('scenes'), t('record'), t('largest difference'), t('relative'), t('at'), t('root mean square')], rows, t('Differences'));
+  const fair = fairRecord(first, others);
+  const shown = table([t('scenes'), t('record'), t('largest difference'), t('relative'), t('at'), t('root mean square')], rows, t('Differences'));
+  return fair ? element('div', {}, element('p', { class: 'note' }, t('The scenes have different elements: {path}, the force of the drive, compares them as wholes.', { path: fair })), shown) : shown;
 }

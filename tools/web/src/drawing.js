@@ -1,7 +1,7 @@
 // Drawing by mouse, touch or keyboard: an action in the schematic changes the netlist, and the schematic is drawn again from it.
 import './drawing.css';
 import { catalogue } from './catalogue.js';
-import { element } from './dom.js';
+import { element, tellMore } from './dom.js';
 import { Handles } from './handles.js';
 import { Inspector } from './inspector.js';
 import { t } from './messages.js';
@@ -46,6 +46,7 @@ export class Drawing {
     this.prompt = element('div', { class: 'prompt', role: 'group', 'aria-label': t('What to do in the schematic'), hidden: true });
     const palette = element('div', { class: 'palette', role: 'group', 'aria-label': t('Element types'), hidden: true });
     this.palette = new Palette(palette, { onchoose: (type) => this.begin(type), ondrop: (type, x, y) => this.drop(type, x, y) });
+    tellMore(palette);
     bar.append(this.toggle, this.tools);
     this.host.parentNode.before(palette, this.prompt);
   }

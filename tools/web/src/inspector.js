@@ -105,7 +105,8 @@ export class Inspector {
   // Where the keyboard was it stays: fields are the same ones in the same order mostly.
   replace(card) {
     const label = this.host.contains(document.activeElement) ? document.activeElement.closest('.field')?.querySelector('label')?.textContent ?? document.activeElement.className : null;
-    const open = new Set([...this.host.querySelectorAll('details[open] > summary')].map(({ textContent }) => textContent));
+    const titleOf = ({ textContent }) => textContent.replace(/\d+/g, ''); // without the number of fields, which changes
+    const open = new Set([...this.host.querySelectorAll('details[open] > summary')].map(titleOf));
     const { scrollTop } = this.host;
     this.typed = null;
     this.card = card;
@@ -117,7 +118,7 @@ export class Inspector {
       element('div', { class: 'inspector-head' }, element('h2', {}, card.heading),
         element('button', { type: 'button', class: 'inspector-close', 'aria-label': t('Close the card'), onclick: () => this.close() }, '✕')),
       this.wrong, (this.body = element('fieldset', { class: 'inspector-body' }, card.parts)));
-    for (const summary of this.host.querySelectorAll('details > summary')) if (open.has(summary.textContent)) summary.parentElement.open = true;
+    for (const summary of this.host.querySelectorAll('details > summary')) if (open.has(titleOf(summary))) summary.parentElement.open = true;
     this.host.scrollTop = scrollTop;
     if (label === null) return;
     const field = [...this.host.querySelectorAll('.field')].find((each) => each.querySelector('label')?.textContent === label);

@@ -196,7 +196,7 @@ export class Lesson {
       this.chart.update(curves);
       return;
     }
-    const side = (path) => ({ quantity: this.record(path).path, unit: this.record(path).unit, as: this.record(path).shown });
+    const side = (path) => ({ quantity: this.record(path).path, unit: this.record(path).unit, as: this.record(path).shown, exact: path === 'time' });
     this.chart = new LoopChart(this.chartHost, { x: side(x), y: side(y), curves, height: 280 });
   }
 }

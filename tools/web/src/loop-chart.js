@@ -18,7 +18,7 @@ function decades(plot, axis, min, max) {
 }
 
 export class LoopChart extends Chart {
-  // curves: [{ name, time, x, y }]; x and y: the axes, { quantity, unit, as }, or { log: true } for both. onpick(k, i): point i of curve k was clicked.
+  // curves: [{ name, time, x, y }]; x and y: the axes, { quantity, unit, as, exact (without a margin) }, or { log: true } for both. onpick(k, i): point i of curve k was clicked.
   constructor(host, { x, y, curves, height = 380, marks = false, onpick = null }) {
     super(host, height);
     this.marks = marks;
@@ -30,7 +30,9 @@ export class LoopChart extends Chart {
     this.sides = [x, y];
     this.curves = curves;
     this.findUnits();
-    const scale = (key) => ({ time: false, distr: log ? 3 : 1, range: (_, min, max) => this.rangeOf(key, log ? [min / 2, max * 2] : shownOf(min, max, 0.08)) });
+    const isExact = { x: x.exact, y: y.exact };
+    const ends = (key, min, max) => (log ? [min / 2, max * 2] : isExact[key] && max > min ? [min, max] : shownOf(min, max, 0.08));
+    const scale = (key) => ({ time: false, distr: log ? 3 : 1, range: (_, min, max) => this.rangeOf(key, ends(key, min, max)) });
     const logValues = log ? { splits: decades, filter: (_, splits) => splits, values: (_, splits) => alongDecades(splits) } : {};
     this.plot = new uPlot(
       {

@@ -6,7 +6,7 @@ import './motion.css';
 import './presentation.css';
 import { Animation } from './animation.js';
 import { Drawing } from './drawing.js';
-import { element, legible, schematicOf } from './dom.js';
+import { element, legible, schematicOf, tellMore } from './dom.js';
 import { Editor } from './editor.js';
 import { choices } from './choices.js';
 import { DrawingView } from './drawing-view.js';
@@ -105,6 +105,7 @@ class Playground {
     const bar = element('header', { class: 'bar' }, this.title, element('nav', { class: 'actions', 'aria-label': t('Actions') },
       button(t('Gallery'), () => this.files.gallery.open()),
       button(t('New'), () => this.beginAnew(), { title: t('An empty scene to draw in') }),
+      button(t('Make a lesson'), () => this.files.editLesson(), { class: 'make-lesson' }),
       menu(t('Save'), () => this.files.saves()),
       menu(t('Export'), () => this.files.exports()),
       button(t('Link'), () => this.files.copyLink()),
@@ -122,6 +123,7 @@ class Playground {
           box('schematic', t('Schematic'), part('draw'), element('div', { class: 'drawings' }, part('drawing'), (this.beside = element('div', { class: 'beside', hidden: true }))), part('animation')),
           box('plots', t('Plots'), this.status, part('plots'))),
         box('more', t('More'), part('sections')))));
+    tellMore(this.parts.mistakes);
     this.view = new DrawingView(this.parts.drawing);
     this.besideView = new DrawingView(this.beside);
     this.view.others = [this.besideView];
@@ -407,6 +409,7 @@ class Playground {
     this.parts.mistakes.replaceChildren(...data.mistakes.map(({ severity, line, column, message, hint }) =>
       element('button', { type: 'button', class: `mistake ${severity}`, onclick: () => line && this.editor.go(line, column) },
         element('b', {}, line ? `${line}:${column} ` : ''), message, hint ? element('span', { class: 'hint' }, ` – ${hint}`) : null)));
+    this.parts.mistakes.dispatchEvent(new Event('scroll')); // The messages beyond the edge are others now.
   }
 
   request() {

@@ -7,7 +7,7 @@ import { Sketch } from './sketch.js';
 const [width, height] = [180, 110]; // of the little picture of a choice
 
 // Pictures of curves to the same scale; of a choice without a curve nothing.
-function pictures(choices) {
+function pictures(choices, record) {
   const ends = (key) => {
     const values = choices.flatMap((choice) => choice[key] ?? []);
     const [low, high] = [Math.min(...values), Math.max(...values)];
@@ -20,17 +20,18 @@ function pictures(choices) {
     const host = element('span', { class: 'choice-picture', 'aria-hidden': 'true' });
     const points = choice.x.map((value, k) => `${place(value, x, width)} ${(height - place(choice.y[k], y, height)).toFixed(1)}`);
     const zero = y[0] <= 0 && y[1] >= 0 ? `<path class="choice-zero" d="M8 ${(height - place(0, y, height)).toFixed(1)}H${width - 8}"/>` : '';
-    host.innerHTML = `<svg viewBox="0 0 ${width} ${height}">${zero}<path class="choice-curve" d="M${points.join('L')}"/></svg>`;
+    host.innerHTML = `<svg viewBox="0 0 ${width} ${height + 14}"><g transform="translate(0 10)"><path class="choice-axis" d="M8 0V${height - 6}H${width - 8}"/>${zero}<path class="choice-curve" d="M${points.join('L')}"/></g><text x="8" y="8"></text><text x="${width - 8}" y="${height + 13}" text-anchor="end"></text></svg>`;
+    host.querySelectorAll('text').forEach((text, i) => (text.textContent = [record?.path ?? '', t('time')][i]));
     return host;
   });
 }
 
 class Choice {
-  constructor({ choices }, onchange) {
+  constructor({ choices }, onchange, record) {
     Object.assign(this, { choices, onchange });
     this.chosen = null;
     const name = freshId('choice');
-    const drawn = pictures(choices);
+    const drawn = pictures(choices, record);
     this.inputs = choices.map((choice, k) => {
       const input = element('input', { type: 'radio', name });
       input.addEventListener('change', () => this.restore(k));
@@ -110,4 +111,4 @@ class Drawing {
   }
 }
 
-export const predictionOf = (asked, onchange, record) => (asked.choices ? new Choice(asked, onchange) : new Drawing(asked, onchange, record));
+export const predictionOf = (asked, onchange, record) => (asked.choices ? new Choice(asked, onchange, record) : new Drawing(asked, onchange, record));
