@@ -414,6 +414,20 @@ test('unfolded parameters of a card stay so when one of them is given', async ()
   await close();
 });
 
+test('where the elements of two variants differ, the differences name the force of the drive', async () => {
+  const { page, close } = await open('#file=stick-slip.toml');
+  await redrawn(page, () => page.getByRole('button', { name: 'Compare' }).click());
+  const differences = page.locator('details[data-name="Differences"]');
+  await differences.locator('summary').click();
+  await differences.locator('table').waitFor();
+  assert.doesNotMatch(await differences.textContent(), /different elements/);
+  await symbol(page, 'k1').click({ position: { x: 8, y: 4 } });
+  await redrawn(page, () => card(page).getByRole('button', { name: 'in parallel' }).click());
+  await differences.getByText('The scenes have different elements: pull.force, the force of the drive').waitFor();
+  await differences.locator('td', { hasText: 'pull.force' }).waitFor();
+  await close();
+});
+
 test('every element type of rheonet is in the palette', async () => {
   const { page, close } = await open('#file=stick-slip.toml');
   await draw(page);

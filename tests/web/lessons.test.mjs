@@ -92,6 +92,10 @@ test('the result is seen only after the prediction, which stays beside the run',
   const compare = page.getByRole('button', { name: 'Compare with the run' });
   assert.equal(await compare.isDisabled(), true);
   await accessible(page, 'before the prediction');
+  const answers = await page.locator('.choices svg').evaluateAll((all) => all.map((svg) => [...svg.querySelectorAll('text')].map(({ textContent }) => textContent)));
+  assert.ok(answers.length && answers.every(([quantity, time]) => /^[\w.]+$/.test(quantity) && time === 'time'), String(answers));
+  const [row, cards] = await page.locator('.choices').evaluate((host) => [host.clientWidth, [...host.children].reduce((sum, card) => sum + card.offsetWidth, 0)]);
+  assert.ok(cards > 0.9 * row, `${cards} of ${row} px`);
   await page.getByRole('radio', { name: 'It stays.' }).check();
   await compare.click();
   for (const part of ['.plots-box', '.sliders-box']) assert.ok(await page.locator(part).isVisible(), part);

@@ -49,8 +49,10 @@ function fairRecord(first, others) {
 export function differencesOf(runs) {
   const [first, ...others] = runs;
   const rows = [];
+  const fair = fairRecord(first, others);
+  const listed = first.data.records.filter(({ path }, k) => path === fair || k < first.data.scene.own_records);
   for (const { label, data } of others)
-    for (const { path, unit } of first.data.records.slice(0, first.data.scene.own_records)) {
+    for (const { path, unit } of listed) {
       if (unit !== data.records.find((record) => record.path === path)?.unit) continue;
       if (!data.column(path) || !first.data.time.length || !data.time.length) continue;
       const { largest, at, scale, rms } = difference(first.data, data, path);
@@ -58,7 +60,6 @@ export function differencesOf(runs) {
         largest > 0 ? `${number(at)}\u00a0s` : '–', withUnit(rms, unit)]);
     }
   if (!rows.length) return element('p', { class: 'note' }, t('The scenes record nothing under the same name and in the same unit.'));
-  const fair = fairRecord(first, others);
   const shown = table([t('scenes'), t('record'), t('largest difference'), t('relative'), t('at'), t('root mean square')], rows, t('Differences'));
   return fair ? element('div', {}, element('p', { class: 'note' }, t('The scenes have different elements: {path}, the force of the drive, compares them as wholes.', { path: fair })), shown) : shown;
 }
