@@ -146,7 +146,7 @@ void ConvexNetwork::open_for_equations() {
   // An equation may be torn only where others are met.
   for (std::size_t tries = 0; tries <= branches_.size() && part_torn_equations(); ++tries) meet_equations();
   // Of those that opened, some were not in the way.
-  if (!equations_.empty()) stick_where_idle();
+  if (!equations_.empty() && stick_where_idle()) merge();
   tear([&](int node) { return fixed_[at(node)] && beside_torn_equation(node); });
 }
 
