@@ -178,7 +178,7 @@ StickForces::StickForces(const Network& network, const Structure& structure, con
     }
     for (const std::size_t train : shared.trains) {
       for (std::size_t i = 0; i < 3; ++i) {
-        if (const int n = row[at(network.trains[train].node[i])]; n >= 0) balance(n, column) += network.trains[train].factor[i];
+        if (const int n = row[at(network.trains[train].node[i])]; n >= 0) balance(n, column) += structure.train_forces[train][i];
       }
       shared.with_trains.low.push_back(-std::numeric_limits<double>::infinity());
       shared.with_trains.high.push_back(std::numeric_limits<double>::infinity());
