@@ -141,12 +141,15 @@ bool ConvexNetwork::beside_torn_equation(int node) const {
 /// Brings the start values to where the equations hold, and lets branches open that are in their way, as far as the laws permit. Prescribed nodes
 /// that then cannot move as prescribed are torn.
 void ConvexNetwork::open_for_equations() {
-  part_torn_equations();
+  bool opened = part_torn_equations();
   meet_equations();
   // An equation may be torn only where others are met.
-  for (std::size_t tries = 0; tries <= branches_.size() && part_torn_equations(); ++tries) meet_equations();
-  // Of those that opened, some were not in the way.
-  if (!equations_.empty() && stick_where_idle()) merge();
+  for (std::size_t tries = 0; tries <= branches_.size() && part_torn_equations(); ++tries) {
+    opened = true;
+    meet_equations();
+  }
+  // Branches whose ends stay together did not have to open.
+  if (opened && stick_where_idle()) merge();
   tear([&](int node) { return fixed_[at(node)] && beside_torn_equation(node); });
 }
 

@@ -152,7 +152,7 @@ test('what is recorded, claimed and given of a node that an element leaves follo
   // Nothing is recorded twice.
   const both = small.replace('"k1.force"', '"b.position"');
   assert.match(moved(both, 'b'), /record = \["b.position"\]/);
-  // A node that has another element keeps what is its own.
+  // Records and start values stay with a node that still has an element.
   const shared = small.replace('["b"', '["a"');
   assert.equal(moved(shared, 'b'), shared.replace('at = "a"', 'at = "b"'));
   // Ground has neither records nor start values.

@@ -54,7 +54,7 @@ ${[...Array(12).keys()].map((k) => `s${k} = { type = "spring", between = ["n${k}
 stop = 1
 record = ["s0.force"]
 `;
-// The hand goes to and fro by 10 mm and pulls two equal springs in series.
+// The hand moves by up to 10 mm either way and pulls two equal springs in series.
 const loop = `[elements]
 hand = { type = "motion", at = "hand", position = { sine = "10 mm", frequency = "1 Hz" } }
 k1 = { type = "spring", between = ["hand", "mid"], stiffness = "100 N/m" }

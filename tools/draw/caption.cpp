@@ -118,6 +118,7 @@ std::string say(double value, const std::string& unit, const Typed& typed) {
 struct Shape {
   const std::string& unit;
   const Typed& typed;
+  bool backward;  ///< Counted in the negative direction.
 
   std::string operator()(const Signal::Constant& s) const { return with("", s.value); }
   std::string operator()(const Signal::Step& s) const {
@@ -125,7 +126,7 @@ struct Shape {
   }
   std::string operator()(const Signal::Ramp& s) const {
     const std::string per_second = unit + "/s";
-    return "ramp " + (typed.say(s.slope, per_second) ? say(s.slope, per_second, typed) : with("", s.slope) + " per s") + beside(s.offset) +
+    return "ramp " + (typed.say(s.slope, per_second) ? said(s.slope, per_second) : with("", s.slope) + " per s") + beside(s.offset) +
            (std::isfinite(s.duration) ? " for " + number(s.duration) + " s" : "");
   }
   std::string operator()(const Signal::Sine& s) const { return wave(is_cosine(s) ? "cosine " : "sine ", s); }
@@ -144,14 +145,19 @@ struct Shape {
     return fmt::format("{}table, {} points", s.smooth ? "smooth " : "", s.times.size()) + beside(s.offset);
   }
 
-  std::string with(const char* what, double value) const { return what + say(value, unit, typed); }
+  std::string with(const char* what, double value) const { return what + said(value, unit); }
+  std::string said(double value, const std::string& of) const {
+    constexpr std::string_view minus = "−";
+    std::string text = say(value, of, typed);
+    return backward && text.starts_with(minus) ? text.substr(minus.size()) : text;
+  }
   template <class Wave>
   std::string wave(const char* what, const Wave& s) const {
     return with(what, s.amplitude) + ", " + say(s.frequency, "Hz", typed) + beside(s.offset);
   }
   /// The constant part of a signal, as a term behind the other.
   std::string beside(double offset) const {
-    return offset == 0 ? "" : (offset < 0 ? " − " : " + ") + say(std::abs(offset), unit, typed);
+    return offset == 0 ? "" : ((offset < 0) != backward ? " − " : " + ") + say(std::abs(offset), unit, typed);
   }
   static bool is_cosine(const Signal::Sine& s) { return s.phase == std::numbers::pi / 2; }
 };
@@ -186,11 +192,6 @@ const SceneFeed* feed_of(const Scene& scene, int element, int parameter) {
   return found == scene.feeds.end() ? nullptr : &*found;
 }
 
-std::string replaced(std::string text, std::string_view old, std::string_view by) {
-  for (std::size_t at = 0; (at = text.find(old, at)) != text.npos; at += by.size()) text.replace(at, old.size(), by);
-  return text;
-}
-
 /// Whether a signal is at or below 0 throughout, and below it at some time; false of shapes of which it is not seen at a glance.
 struct NeverPositive {
   bool operator()(const Signal::Constant& s) const { return s.value < 0; }
@@ -222,8 +223,7 @@ std::vector<std::string> signal_of(const Scene& scene, int index, std::size_t wh
       declaration_of(element).parameters[static_cast<std::size_t>(element.signal_parameters[which])];
   const std::string unit = unit_of_parameter(scene, index, parameter);
   const Signal::Shape& shape = element.signals[which].shape();
-  std::vector<std::string> lines{std::visit(Shape{unit, typed}, shape)};
-  if (acts_backward(scene, index)) lines.front() = replaced(replaced(std::move(lines.front()), " − ", " + "), "−", "");
+  std::vector<std::string> lines{std::visit(Shape{unit, typed, acts_backward(scene, index)}, shape)};
   if (std::string beginning = std::visit(Beginning{typed}, shape); !beginning.empty()) lines.push_back(std::move(beginning));
   return lines;
 }

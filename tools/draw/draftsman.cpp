@@ -126,7 +126,7 @@ Piece Draftsman::omission_in_row(const Block& block) const {
   return piece;
 }
 
-// An arrow towards the node from its left, or from the node to the right; backward for what acts in the negative direction.
+// An arrow that ends at the node, to its left, or begins there, to its right. It points backward if what it stands for acts in the negative direction.
 void Draftsman::drive(Stand& stand, int element, bool from_left) const {
   const double size = detail_.drive;
   const NodeId node = scene_.elements[static_cast<std::size_t>(element)].a;

@@ -24,6 +24,7 @@ export function tellMore(host) {
   host.addEventListener('scroll', look);
   const watch = new ResizeObserver(look);
   for (const part of [host, ...host.children]) watch.observe(part);
+  new MutationObserver(look).observe(host, { childList: true, subtree: true });
 }
 
 export function table(headings, rows, caption) {

@@ -5,8 +5,9 @@ import './playground.css';
 import './motion.css';
 import './presentation.css';
 import { Animation } from './animation.js';
+import { Beside } from './beside.js';
 import { Drawing } from './drawing.js';
-import { element, legible, schematicOf, tellMore } from './dom.js';
+import { element, schematicOf, tellMore } from './dom.js';
 import { Editor } from './editor.js';
 import { choices } from './choices.js';
 import { DrawingView } from './drawing-view.js';
@@ -38,6 +39,7 @@ class Playground {
     this.variants = [this.variant('A', firstScene, 'scene.toml')];
     this.active = 0;
     this.files = new Files(this);
+    this.beside = new Beside();
     this.build(host);
     this.editor = new Editor(this.parts.editor, {
       onchange: (text, typed, isOther, byHand) => this.edited(text, typed, isOther, byHand),
@@ -52,8 +54,7 @@ class Playground {
     this.traces = new Traces(() => this.showPlots());
     this.plots = new PlotPanel(this.parts.plots, { onchange: () => this.showSections(), fits: true, traces: this.traces });
     this.folds = new Folds(this.parts.sections, () => this.request(), (path, value) => this.sliders.slide(path, value));
-    this.besideAnimation = new Animation(element('div'));
-    this.animation = new Animation(this.parts.animation, { onframe: (time) => this.plots.mark(time), follower: this.besideAnimation });
+    this.animation = new Animation(this.parts.animation, { onframe: (time) => this.plots.mark(time), follower: this.beside.animation });
     this.course = new Lesson(this.lesson, {
       sliders: this.sliders, language,
       others: () => this.files.lessons(),
@@ -120,15 +121,13 @@ class Playground {
       element('div', { class: 'stage' },
         element('div', { class: 'view' },
           (this.lesson = box('lesson', t('Question'))),
-          box('schematic', t('Schematic'), part('draw'), element('div', { class: 'drawings' }, part('drawing'), (this.beside = element('div', { class: 'beside', hidden: true }))), part('animation')),
+          box('schematic', t('Schematic'), part('draw'), element('div', { class: 'drawings' }, part('drawing'), this.beside.host), part('animation')),
           box('plots', t('Plots'), this.status, part('plots'))),
         box('more', t('More'), part('sections')))));
     tellMore(this.parts.mistakes);
     this.view = new DrawingView(this.parts.drawing);
-    this.besideView = new DrawingView(this.beside);
-    this.view.others = [this.besideView];
     this.parts.drawing.parentNode.before(this.view.controls);
-    new ResizeObserver(() => this.arrange()).observe(this.parts.drawing.parentNode);
+    this.beside.join(this.parts.drawing, this.view);
     new ResizeObserver(() => document.body.style.setProperty('--bar', `${bar.offsetHeight}px`)).observe(bar);
     this.lesson.hidden = true;
     this.toast = element('p', { class: 'toast', hidden: true, 'aria-hidden': 'true' });
@@ -217,7 +216,7 @@ class Playground {
     this.view.attach();
     this.parts.animation.hidden = true;
     this.drawn = null;
-    this.showBeside(this.variants[1 - this.active]);
+    this.showBeside();
     this.drawing.clear();
     this.showTitle('');
     this.showLesson({});
@@ -344,36 +343,13 @@ class Playground {
   }
 
   showMotion(data) {
-    const other = this.variants[1 - this.active];
-    this.showBeside(other);
-    this.animation.attach(this.parts.drawing.querySelector('svg'), data, other?.data);
+    this.showBeside();
+    this.animation.attach(this.parts.drawing.querySelector('svg'), data, this.variants[1 - this.active]?.data);
   }
 
-  // The schematic of the variant that is compared with the current one.
-  showBeside(other) {
-    const scene = other?.data.scene;
-    this.beside.hidden = !scene;
-    this.parts.drawing.dataset.label = scene ? this.current.label : '';
-    if (scene?.schematic !== this.drawnBeside) {
-      this.beside.replaceChildren(...(scene ? [schematicOf(scene)] : []));
-      this.besideView.attach();
-    }
-    this.drawnBeside = scene?.schematic;
-    this.arrange();
-    if (!scene) return;
-    this.beside.dataset.label = other.label;
-    this.beside.style.order = this.active ? -1 : 0; // A is before B.
-    this.besideAnimation.attach(this.beside.querySelector('svg'), other.data, this.current.data);
-  }
-
-  // Two schematics are side by side where their letters are large enough for that, and below each other elsewhere.
-  arrange() {
-    const least = 0.8; // letters of 8 px
-    const drawings = this.parts.drawing.parentNode;
-    const views = this.beside.hidden ? [] : [this.view, this.besideView].filter(({ svg }) => svg);
-    drawings.classList.toggle('stacked', views.some(({ size }) => (drawings.clientWidth - 12) / 2 < least * size.width));
-    this.view.least = this.besideView.least = views.length && !drawings.classList.contains('stacked') ? least : legible;
-    this.view.all((view) => view.place());
+  // The variant that is compared with the current one: A is before B.
+  showBeside() {
+    this.beside.show(this.current, this.variants[1 - this.active] ?? null, this.active === 1);
   }
 
   showLesson(scene) {
@@ -409,7 +385,6 @@ class Playground {
     this.parts.mistakes.replaceChildren(...data.mistakes.map(({ severity, line, column, message, hint }) =>
       element('button', { type: 'button', class: `mistake ${severity}`, onclick: () => line && this.editor.go(line, column) },
         element('b', {}, line ? `${line}:${column} ` : ''), message, hint ? element('span', { class: 'hint' }, ` – ${hint}`) : null)));
-    this.parts.mistakes.dispatchEvent(new Event('scroll')); // The messages beyond the edge are others now.
   }
 
   request() {
@@ -427,7 +402,7 @@ class Playground {
     if (this.variants.length > 1) {
       this.files.leave(location.href);
       this.endComparison();
-      this.showBeside(null);
+      this.showBeside();
       this.showPlots();
       this.showSections();
       this.offerBack(t('The comparison has ended. Undo brings it back.'));

@@ -6,7 +6,8 @@ const whereNothingMoves = 1e-3; // m for a pixel
 const turning = 0.02; // rad for a pixel
 const inUnits = { m: [1e3, 'mm'], rad: [1, 'rad'] };
 
-// What happens while the element of a name is dragged: { move(px), end() }; null for an element that cannot be pulled. `desk`: the playground.
+// Returns { move(px), end() }, which are called while the mouse or a finger drags the element with this name, or null if it cannot be pulled.
+// `desk`: the playground.
 export function pullOf(desk, name) {
   const { drawing, sliders } = desk;
   const element = drawing.scene?.elements.find((each) => each.name === name);

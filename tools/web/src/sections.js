@@ -106,7 +106,10 @@ export function eventsOf(data) {
     return element('span', { class: 'key' }, swatch, `${kind} (${items.filter((item) => item[2] === kind).length})`);
   })));
   const most = 200;
-  const rows = items.slice(0, most).map(([time, name, what, direction]) => [number(time / unit.factor, 6), name, what, String(direction)]);
+  const times = items.map(([time]) => time / unit.factor);
+  // As many digits as tell an event from those before and after it.
+  const apart = (k) => Math.min(Math.abs(times[k]), ...[times[k] - times[k - 1], times[k + 1] - times[k]].filter((between) => between > 0));
+  const rows = items.slice(0, most).map(([, name, what, direction], k) => [spaced(times[k], apart(k), 6), name, what, String(direction)]);
   host.append(element('details', {}, element('summary', {}, t('All {count} events', { count: grouped(items.length + left_out) })),
     table([`${t('time')} [${unit.name}]`, t('element'), t('event'), t('direction')], rows, t('Events')),
     items.length + left_out > most ? element('p', { class: 'note' }, t('and {count} more; `rheonet run --events` lists all', { count: grouped(items.length + left_out - most) })) : null));
@@ -139,7 +142,7 @@ export function statisticsOf(data) {
 export function claimsOf(data) {
   const claims = data.done?.claims ?? [];
   if (!claims.length) return null;
-  // Of a claim that fails the difference may be in a late digit.
+  // A claim may fail in a late digit: then all digits are shown.
   const said = (text, holds) => withUnits(holds ? shortened(text) : text);
   return table([t('claim'), t('claimed'), t('found'), t('verdict')], claims.map(({ name, claimed, found, holds }) => [withUnits(name), said(claimed, holds), said(found, holds),
     element('span', { class: holds ? 'holds' : 'fails' }, holds ? t('holds') : t('fails'))]), t('Claims'));
