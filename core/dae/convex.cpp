@@ -197,7 +197,8 @@ void ConvexNetwork::merge() {
 /// Sums the forces at all free clusters; true if the sums are round-off.
 bool ConvexNetwork::balanced(Sums& sums) const {
   sums.all.assign(at(clusters_.columns()), 0);
-  std::vector<double> rounding(sums.all);
+  std::vector<double>& rounding = sums.rounding;
+  rounding = sums.all;
   const auto add = [&](int node, double f) {
     const int column = clusters_.column(node);
     if (column < 0) return;
@@ -257,7 +258,46 @@ bool ConvexNetwork::stick_where_idle() {
   return idle;
 }
 
+/// At no free cluster is a force left over beyond round-off, of forces and of the values themselves: the check of an answer, as steps
+/// that gain nothing say less.
+bool ConvexNetwork::answer_balances(Sums& sums) const {
+  if (balanced(sums)) return true;
+  constexpr double roundoffs = numerics::runaway_imbalance / numerics::convex_balance_roundoff;
+  const double negligible = numerics::runaway_imbalance * largest_force();
+  std::vector<double> allowed = sums.rounding;
+  for (double& force : allowed) force = std::max(roundoffs * force, negligible);
+  for (const Branch& b : branches_) {
+    const double blur = value_rounding * (std::abs(value(b.a)) + std::abs(value(b.b)));
+    if (clusters_.joined(b.a, b.b) || blur == 0) continue;
+    const double range = b.force(b.w + blur, 1) - b.force(b.w - blur, -1);
+    for (const int node : {b.a, b.b}) {
+      if (const int column = clusters_.column(node); column >= 0) allowed[at(column)] += range;
+    }
+  }
+  for (std::size_t c = 0; c < allowed.size(); ++c) {
+    if (!(std::abs(sums.all[c]) <= allowed[c])) return false;
+  }
+  return true;
+}
+
+/// Round-off of the slope along d.
+double ConvexNetwork::roundoff_along(const std::vector<double>& d, const Sums& sums) const {
+  double roundoff = 0;
+  for (int k = 0; at(k) < u_.size(); ++k) {
+    if (const int column = clusters_.column(k); column >= 0 && clusters_.head(k) == k) roundoff += sums.rounding[at(column)] * std::abs(d[at(k)]);
+  }
+  return roundoff;
+}
+
 ConvexNetwork::Outcome ConvexNetwork::solve() {
+  const Outcome outcome = minimise();
+  if (outcome != Outcome::solved) return outcome;
+  merge();  // what sticks again since the last step
+  Sums sums;
+  return answer_balances(sums) ? outcome : Outcome::undecided;
+}
+
+ConvexNetwork::Outcome ConvexNetwork::minimise() {
   find_restrained();
   choose_weak();
   classify_equations();
@@ -284,7 +324,8 @@ ConvexNetwork::Outcome ConvexNetwork::solve() {
       }
       open_for_equations();
     }
-    bool settled = balanced(sums) || full_steps_ >= numerics::settled_newton_steps || idle >= numerics::settled_newton_steps;
+    const bool no_gain = full_steps_ >= numerics::settled_newton_steps || idle >= numerics::settled_newton_steps;
+    bool settled = no_gain ? answer_balances(sums) : balanced(sums);
     if (!settled) {
       if (!direction_of_descent(sums.laws, d, false)) {
         if (flattened(sums.all)) return Outcome::unbounded;
@@ -306,8 +347,8 @@ ConvexNetwork::Outcome ConvexNetwork::solve() {
         released_.resize(alone ? 0 : 1);
         continue;
       }
-      settled = settled || !(descent < 0);
-      idle = -descent <= numerics::least_newton_gain * power() ? idle + 1 : 0;
+      settled = settled || (!(descent < 0) && answer_balances(sums));
+      idle = -descent <= roundoff_along(d, sums) ? idle + 1 : 0;
       double left = 0;
       for (double g : sums.all) left = std::max(left, std::abs(g));
       stagnant = left < least / 2 ? 0 : stagnant + 1;
@@ -327,7 +368,7 @@ ConvexNetwork::Outcome ConvexNetwork::solve() {
     released_.clear();
     looked_again = false;
     for (Branch& b : branches_) b.apart = b.jumps && !b.stuck && b.w != 0;
-    if (search(d) == Outcome::unbounded) {
+    if (search(d, idle == 0) == Outcome::unbounded) {
       for (std::size_t k = 0; k < u_.size(); ++k) {
         if (d[k] != 0) runaways_.push_back(static_cast<int>(k));
       }

@@ -68,6 +68,7 @@ class ConvexNetwork {
     unbounded,  ///< No x balances the applied forces, however large.
     undecided,  ///< round-off prevents a decision.
   };
+  /// The answer is checked: every node balances, to round-off of forces and values and 1e-9 of the largest force; else it is `undecided`.
   Outcome solve();
 
   double value(int node) const { return base_[at(node)] + u_[at(node)]; }
@@ -124,6 +125,7 @@ class ConvexNetwork {
   bool firm(std::size_t node) const { return fixed_[node] || inertia_[node] > 0 || tied_[node]; }
   /// It needs no regularising slope, and cannot run away.
   bool restrained(std::size_t node) const { return restrained_[node]; }
+  Outcome minimise();
   void find_restrained();
   std::vector<std::vector<double>> equations_of_columns(Eigen::VectorXd& left) const;
   bool step_within_equations(const std::vector<Conductance>& slopes, Eigen::VectorXd& step);
@@ -154,15 +156,17 @@ class ConvexNetwork {
   void merge();
   struct Sums {
     std::vector<double> laws, all;  ///< Sums of forces at each column, without and with the forces of equations.
+    std::vector<double> rounding;   ///< of these sums.
   };
   bool balanced(Sums& sums) const;
+  bool answer_balances(Sums& sums) const;
+  double roundoff_along(const std::vector<double>& d, const Sums& sums) const;
   bool direction_of_descent(const std::vector<double>& sum_of_laws, std::vector<double>& d, bool secants);
-  Outcome search(const std::vector<double>& d);
+  Outcome search(const std::vector<double>& d, bool gains);
   bool release();
   void release_as_before();
   bool run_away();
   bool flattened(const std::vector<double>& sums);
-  double power() const;
   void find_bond_forces(double roundoff = 0);
   bool bonds_hold();
 

@@ -97,18 +97,6 @@ void ConvexNetwork::release_as_before() {
   }
 }
 
-/// Sum of the magnitudes of the powers of all branches and loads.
-double ConvexNetwork::power() const {
-  double sum = 0;
-  for (const Branch& b : branches_) {
-    if (b.w != 0) sum += std::abs(b.force(b.w, b.side) * b.w);
-  }
-  for (std::size_t k = 0; k < u_.size(); ++k) {
-    sum += (std::abs(applied_[k]) + std::abs(inertia_[k] * u_[k])) * std::abs(base_[k] + u_[k]);
-  }
-  return sum;
-}
-
 /// True if nothing but regularising slopes holds some node.
 bool ConvexNetwork::run_away() {
   double scale = 0;

@@ -67,8 +67,8 @@ double ConvexNetwork::slope_along(const std::vector<double>& d, double step) con
   return sum;
 }
 
-/// Moves along d to the minimum; a branch whose jump is at the minimum sticks from there on.
-ConvexNetwork::Outcome ConvexNetwork::search(const std::vector<double>& d) {
+/// Moves along d to the minimum; a branch whose jump is at the minimum sticks from there on. `gains`: the slope along d exceeds round-off.
+ConvexNetwork::Outcome ConvexNetwork::search(const std::vector<double>& d, bool gains) {
   struct Break { double step; int branch; };
   std::vector<Break> breaks;
   bool linear = true;  // and no kink on the way
@@ -89,7 +89,8 @@ ConvexNetwork::Outcome ConvexNetwork::search(const std::vector<double>& d) {
       if (std::abs(b.w) <= meeting_rounding * (std::abs(before) + std::abs(dw))) b.w = 0;
     }
   };
-  if (linear && breaks.empty()) {
+  // Where the round-off of large forces hides the slope, Newton's step still balances the nodes with small ones.
+  if ((linear || !gains) && breaks.empty()) {
     move(1);
     ++full_steps_;
     return Outcome::solved;

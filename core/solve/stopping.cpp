@@ -20,7 +20,8 @@ void Stopping::attach(const Dae& dae) {
 void Stopping::find(const Dae::View& view, const Magnitudes& seen, double local) {
   std::fill(limit_.begin(), limit_.end(), std::numeric_limits<double>::infinity());
   for (const StopChain& chain : chains_) {
-    const double together = std::min(std::abs(view.velocity[at(chain.a)]), std::abs(view.velocity[at(chain.b)]));
+    const double common = std::min(std::abs(view.velocity[at(chain.a)]), std::abs(view.velocity[at(chain.b)]));
+    const double together = std::max({common, carried_by_trains(chain.a, view.velocity), carried_by_trains(chain.b, view.velocity)});
     double most = 0, least = 0, dead_band = 0, largest_exponent = 0;
     for (const int r : chain.rates) {
       carried_seen_[at(r)] = std::max(carried_seen_[at(r)], together);
@@ -39,6 +40,19 @@ void Stopping::find(const Dae::View& view, const Magnitudes& seen, double local)
     most = std::max({steepening * most, least, dead_band});
     for (const NodeId node : {chain.a, chain.b}) limit_[at(node)] = std::min(limit_[at(node)], most);
   }
+}
+
+/// The largest part of a node's velocity that another node of a transmission gives it: such parts may cancel.
+double Stopping::carried_by_trains(NodeId node, const std::vector<double>& velocity) const {
+  double largest = 0;
+  for (const Network::Train& train : network_.trains) {
+    const auto own = std::find(train.node.begin(), train.node.end(), node);
+    if (own == train.node.end() || train.factor[at(own - train.node.begin())] == 0) continue;
+    for (std::size_t k = 0; k < train.node.size(); ++k) {
+      if (train.node[k] != node) largest = std::max(largest, std::abs(train.factor[k] / train.factor[at(own - train.node.begin())] * velocity[at(train.node[k])]));
+    }
+  }
+  return largest;
 }
 
 double Stopping::carried_noise(std::size_t rate, double local) const {

@@ -26,12 +26,13 @@ class Stopping {
   double unfelt(int rate, const Magnitudes& seen, double local) const;
 
  private:
+  double carried_by_trains(NodeId node, const std::vector<double>& velocity) const;
   double carried_noise(std::size_t rate, double local) const;
 
   const Network& network_;
   std::vector<StopChain> chains_;      ///< In the present modes.
   std::vector<double> limit_;          ///< For each node; empty without power laws.
-  std::vector<double> carried_seen_;   ///< For each rate branch: largest velocity common to both ends [m/s].
+  std::vector<double> carried_seen_;   ///< For each rate branch: largest velocity common to both ends, or of a transmission that moves one [m/s].
 };
 
 }  // namespace rheonet

@@ -62,4 +62,33 @@ TEST_CASE("Sliders are found whatever was guessed of them") {
   }
 }
 
+// The search ended where it gained nothing beside the large power of others, and took the small forces for balanced. Where Newton's
+// method is too slow, that is no answer.
+TEST_CASE("Small forces balance beside large ones, or there is no answer") {
+  constexpr double large = 3, B = 2e6;
+  for (const double small : {1e-2, 1e-5, 1e-8}) {
+    for (const double n : {0.6, 0.8, 1.7, 3.0}) {
+      CAPTURE(small);
+      CAPTURE(n);
+      ConvexNetwork problem(3);
+      problem.fix(0, 0);
+      const auto power_law = [](double coefficient, double exponent) {
+        return ConvexNetwork::Law{.backward = coefficient, .forward = coefficient, .beyond = [=](double w, double& slope) {
+                                    slope = std::max(1.0, exponent) * coefficient * std::pow(std::abs(w), exponent - 1);  // overshoots nowhere
+                                    return std::copysign(coefficient * std::pow(std::abs(w), exponent), w);
+                                  }};
+      };
+      problem.add(1, 0, power_law(1.3, 1.5));
+      problem.load(1, large);
+      problem.add(2, 0, power_law(B, n));
+      problem.load(2, small);
+      const bool solved = problem.solve() == ConvexNetwork::Outcome::solved;
+      CHECK((solved || n == 3));
+      if (!solved) continue;
+      CHECK(1.3 * std::pow(problem.value(1), 1.5) == doctest::Approx(large).epsilon(1e-9));
+      CHECK(std::abs(B * std::pow(std::max(0.0, problem.value(2)), n) - small) <= 1e-9 * large);
+    }
+  }
+}
+
 }  // namespace rheonet::test::convex_test
