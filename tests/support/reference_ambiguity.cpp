@@ -27,7 +27,7 @@ bool ReferenceNetwork::open_at_rest() const {
     add(terms);
   }
   for (std::size_t k = 0; k < bundles_.size(); ++k) {
-    if (std::abs(points_[k].step) > little_stretch * typical_step_ || !bundles_[k].set_valued()) continue;
+    if (std::abs(points_[k].step) > still_ || !bundles_[k].set_valued()) continue;
     if (unknown_[at(bundles_[k].a)] < 0 && unknown_[at(bundles_[k].b)] < 0) continue;
     add(std::vector<std::pair<NodeId, double>>{{bundles_[k].a, 1}, {bundles_[k].b, -1}});
   }
@@ -51,7 +51,7 @@ void ReferenceNetwork::note_ambiguity() {
   for (std::size_t k = 0; k < bundles_.size(); ++k) {
     const ReferenceBundle& b = bundles_[k];
     // Where several solutions fit, the one found may leave some a little beside rest.
-    if (std::abs(points_[k].step) > little_stretch * typical_step_ || !b.set_valued()) continue;
+    if (std::abs(points_[k].step) > still_ || !b.set_valued()) continue;
     const std::size_t i = root(b.a), j = root(b.b);
     const bool cfms = std::none_of(b.members().begin(), b.members().end(), [](const ReferenceBundle::Member& m) {
       return m.law.rigid();

@@ -29,13 +29,15 @@ ReferenceLaw::ReferenceLaw(const SceneElement& element, const Declaration& decla
     const double value = element.values[k];
     if (name == "stiffness") stiffness_ = value;
     if (name == "damping") damping_ = value;
-    if (name == "coulomb" && type_ != Type::slider) coulomb_ = value;
+    if (name == "coulomb") (type_ == Type::slider ? sliding_ : coulomb_) = value;
     if (name == "exponent" || name == "flow_index") exponent_ = value;
     if (name == "rest") rest = value;
     if (name == "lower" && !std::isnan(value)) lower_ = value;
     if (name == "upper" && !std::isnan(value)) upper_ = value;
     if (name == "f0") f0 = value;
     if (name == "d0") d0 = value;
+    if (name == "stribeck") stribeck_ = value;
+    if (name == "shape") shape_ = value;
   }
   if (type_ == Type::slider) bound(slider_bounds(element, [](const Signal& signal) { return signal.value(0); }));
   if (!std::isnan(f0)) force_ = f0;
@@ -97,6 +99,11 @@ double ReferenceLaw::relaxing(double step, double h, double s) const {
   return u;
 }
 
+ReferenceLaw::Value ReferenceLaw::stribeck(double step, double h) const {
+  const double speed = std::abs(step) / h / stribeck_, power = std::pow(speed, shape_), above = (breakaway_ - sliding_) * std::exp(-power);
+  return {sign_of(step) * (sliding_ + above), speed > 0 ? -above * shape_ * power / std::abs(step) : 0};
+}
+
 ReferenceLaw::Value ReferenceLaw::contact(double step, double h) const {
   const double d = stretch_ + step, x = d > upper_ ? d - upper_ : d < lower_ ? d - lower_ : 0;
   if (x == 0) return {0, 0};
@@ -117,12 +124,15 @@ ReferenceLaw::Value ReferenceLaw::value(double step, double h) const {
       return {sign_of(step) * damping_ * grown, exponent_ * damping_ * (rate > 0 ? grown / rate : std::pow(rate, exponent_ - 1)) / h};
     }
     case Type::slider:
+      if (!std::isnan(stribeck_)) return stribeck(step, h);
       if (step > 0) return {slip_ > 0 ? coulomb_ : breakaway_, 0};
       return {slip_ < 0 ? -coulomb_ : -breakaway_, 0};
     case Type::freewheel:
       return {step < 0 ? -INFINITY : 0, 0};
     case Type::stop:
       return contact(step, h);
+    case Type::loss:
+      return {step > 0 ? range_.high : range_.low, 0};
     case Type::sfm:
       return solid_friction(step);
     case Type::vfm: {
@@ -139,6 +149,7 @@ ReferenceLaw::Value ReferenceLaw::value(double step, double h) const {
 ReferenceLaw::Interval ReferenceLaw::at_rest(double h) const {
   if (type_ == Type::slider) return {slip_ < 0 ? -coulomb_ : -breakaway_, slip_ > 0 ? coulomb_ : breakaway_};
   if (type_ == Type::freewheel) return {-INFINITY, 0};
+  if (type_ == Type::loss) return range_;
   if (type_ == Type::cfm) return {-coulomb_ * (1 - relaxing(0, h, -1)), coulomb_ * (1 - relaxing(0, h, 1))};
   const double f = value(0, h).force;
   return {f, f};

@@ -15,7 +15,8 @@ namespace rheonet::test {
 ///
 ///     spring   f = k (d + step - d0)
 ///     dashpot  f = B |step/h|^n sgn
-///     slider   f = Fc sgn(step), an interval at 0
+///     slider   f = Fc sgn(step), an interval at 0; with Stribeck's curve (Fc + (Fs - Fc) exp(-|step/(h vs)|^n)) sgn(step)
+///     loss     the friction of a transmission: as a slider, with a force of its own for each direction
 ///     stop     f = k x beyond a bound by x, and B step/h within +-k x
 ///     freewheel  f = 0 for step > 0, any f <= 0 for step = 0; a step < 0 is impossible
 ///     sfm      the closed form between two reversals, in the direction of the step
@@ -25,17 +26,19 @@ namespace rheonet::test {
 class ReferenceLaw {
  public:
   static constexpr double rounding = 4e-16;  ///< error of a sum by round-off, as a fraction of its terms
-  enum class Type { spring, dashpot, slider, sfm, vfm, cfm, freewheel, stop };
+  enum class Type { spring, dashpot, slider, sfm, vfm, cfm, freewheel, stop, loss };
   struct Value { double force, slope; };
   struct Interval { double low, high; };
 
   /// `displacement` is that of the element's ends at the start.
   ReferenceLaw(const SceneElement& element, const Declaration& declaration, double displacement);
+  /// The friction of a transmission.
+  static ReferenceLaw loss() { return ReferenceLaw(Type::loss); }
   static bool is_law(const std::string& type);
 
   Type type() const { return type_; }
   /// Sticks at 0.
-  bool rigid() const { return type_ == Type::slider || type_ == Type::freewheel; }
+  bool rigid() const { return type_ == Type::slider || type_ == Type::freewheel || type_ == Type::loss; }
   /// Set-valued at 0, or of infinite slope there.
   bool steep() const { return rigid() || type_ == Type::cfm || (type_ == Type::dashpot && exponent_ < 1); }
 
@@ -45,6 +48,10 @@ class ReferenceLaw {
 
   /// The bounds of a slider during the next step, if they vary.
   void bound(const SliderBounds& bounds) { coulomb_ = bounds.coulomb, breakaway_ = bounds.breakaway; }
+
+  /// The forces of a transmission's friction in both directions.
+  Interval range() const { return range_; }
+  void set_range(Interval range) { range_ = range; }
 
   /// Ends the step.
   void accept(double step, double force, double h);
@@ -79,6 +86,8 @@ class ReferenceLaw {
   double typical_slope(double h) const;
 
  private:
+  explicit ReferenceLaw(Type type) : type_(type) {}
+  Value stribeck(double step, double h) const;
   Value solid_friction(double step) const;
   Value contact(double step, double h) const;
   double relaxing(double step, double h, double direction) const;
@@ -88,6 +97,8 @@ class ReferenceLaw {
   double force_ = 0;
   double stretch_ = 0;  ///< of a spring: d - d0; of a stop: d
   double lower_ = -INFINITY, upper_ = INFINITY;
+  double sliding_ = 0, stribeck_ = NAN, shape_ = 2;  ///< of Stribeck's curve: Fc, vs, n
+  Interval range_{0, 0};
   int slip_ = 0;
   Piece piece_;
   double velocity_ = 0, h_ = 0;  ///< mean velocity and length of the last step

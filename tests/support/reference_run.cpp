@@ -50,26 +50,34 @@ ReferenceNetwork ReferenceRun::build() {
       masses_.push_back({e.values.at(0), e.a, index});
       nodes[at(e.a)].mass += e.values[0];
       mass_[at(e.a)] += e.values[0];
-    } else if (type_of(e) == "gear") {
-      const double ratio = e.values.at(0);
+    } else if (const auto equation = transmission_equation(type_of(e), e)) {
       gear_of_[index] = gears.size();
-      gears.push_back({{e.a, e.b, e.support}, {1, -ratio, ratio - 1}});
+      gears.push_back({.node = {e.a, e.b, e.support}, .factor = equation->factor, .equation = *equation});
     } else if (!ReferenceLaw::is_law(type_of(e))) {
       throw std::runtime_error("the reference integrator knows no " + type_of(e));
     }
   }
   std::vector<ReferenceBundle> bundles;
+  const auto add = [&](NodeId a, NodeId b, ReferenceLaw law, std::size_t element) {
+    auto found = std::find_if(bundles.begin(), bundles.end(), [&](const ReferenceBundle& bundle) {
+      return (bundle.a == a && bundle.b == b) || (bundle.a == b && bundle.b == a);
+    });
+    if (found == bundles.end()) found = bundles.insert(found, ReferenceBundle(a, b));
+    found->add({std::move(law), found->a == a ? 1.0 : -1.0, static_cast<int>(element)});
+    return std::pair{std::size_t(found - bundles.begin()), found->members().size() - 1};
+  };
   for (std::size_t k = 0; k < scene_.elements.size(); ++k) {
     const SceneElement& e = scene_.elements[k];
+    if (const auto gear = gear_of_.find(static_cast<int>(k)); gear != gear_of_.end() && gears[gear->second].equation.lossy()) {
+      ReferenceLaw friction = ReferenceLaw::loss();
+      const auto [low, high] = gears[gear->second].equation.friction(0);
+      friction.set_range({low, high});
+      const auto [bundle, member] = add(e.a, e.support, std::move(friction), k);
+      gears[gear->second].friction = {bundle, member};
+    }
     if (!ReferenceLaw::is_law(type_of(e))) continue;
-    auto found = std::find_if(bundles.begin(), bundles.end(), [&](const ReferenceBundle& b) {
-      return (b.a == e.a && b.b == e.b) || (b.a == e.b && b.b == e.a);
-    });
-    if (found == bundles.end()) found = bundles.insert(found, ReferenceBundle(e.a, e.b));
     const double displacement = nodes[at(e.a)].position - nodes[at(e.b)].position;
-    law_of_[static_cast<int>(k)] = {std::size_t(found - bundles.begin()), found->members().size()};
-    found->add({ReferenceLaw(e, *declarations_[at(e.declaration)], displacement), found->a == e.a ? 1.0 : -1.0,
-                static_cast<int>(k)});
+    law_of_[static_cast<int>(k)] = add(e.a, e.b, ReferenceLaw(e, *declarations_[at(e.declaration)], displacement), k);
     if (!e.signals.empty()) varying_.push_back({&e, law_of_[static_cast<int>(k)].first, law_of_[static_cast<int>(k)].second, {}});
   }
   acceleration_.assign(nodes.size(), 0);
@@ -290,7 +298,10 @@ double ReferenceRun::element_force(int element) const {
   if (const auto found = law_of_.find(element); found != law_of_.end()) {
     return network_.bundles()[found->second.first].members()[found->second.second].law.force();
   }
-  if (const auto found = gear_of_.find(element); found != gear_of_.end()) return network_.gears()[found->second].force;
+  if (const auto found = gear_of_.find(element); found != gear_of_.end()) {
+    const ReferenceNetwork::Gear& gear = network_.gears()[found->second];
+    return gear.force + (gear.friction ? network_.bundles()[gear.friction->bundle].members()[gear.friction->member].law.force() : 0);
+  }
   for (const Mass& m : masses_) {
     if (m.element == element) return m.mass * acceleration_[at(m.node)];
   }

@@ -14,6 +14,9 @@ namespace {
 constexpr double stiffer[] = {1e3, 10};
 constexpr int corrections = 200, stiffen_after = 8;
 constexpr int newton_steps = 200;
+// Losses follow the force that a transmission passes on, to this fraction of the largest force.
+constexpr double followed = 1e-9;
+constexpr int rounds_of_slips = 20, rounds_of_losses = 100;
 // A balance is found to this part of the forces that meet there: some rounding errors.
 constexpr double balanced = 3e-14;
 // Fraction of the round-off of a series spring that remains after the corrections.
@@ -50,6 +53,7 @@ void solve(std::vector<double>& a, std::vector<double>& b) {
 
 ReferenceNetwork::ReferenceNetwork(std::vector<Node> nodes, std::vector<ReferenceBundle> bundles, std::vector<Gear> gears)
     : nodes_(std::move(nodes)), bundles_(std::move(bundles)), gears_(std::move(gears)) {
+  for (const Node& node : nodes_) total_mass_ += node.mass;
   unknown_.assign(nodes_.size(), -1);
   for (std::size_t n = 0; n < nodes_.size(); ++n) {
     if (nodes_[n].prescribed) continue;
@@ -86,7 +90,7 @@ void ReferenceNetwork::evaluate(const Input& input) {
     const double f = points_[k].force;
     largest_step_ = std::max(largest_step_, std::abs(total));
     // The rounding of the positions of both ends shows in the force.
-    const double magnitude = std::abs(f) + points_[k].slope * (std::abs(x_[at(b.a)]) + std::abs(x_[at(b.b)]));
+    const double magnitude = std::abs(f) + std::abs(points_[k].slope) * (std::abs(x_[at(b.a)]) + std::abs(x_[at(b.b)]));
     largest_force_ = std::max(largest_force_, std::abs(f));
     blur_ = std::max(blur_, (K_[k] > 0 ? corrected : 1) * balanced * magnitude);
     if (i >= 0) gradient_[at(i)] += f, size_[at(i)] += magnitude;
@@ -311,6 +315,20 @@ bool ReferenceNetwork::minimise(const Input& input, double factor) {
   return false;
 }
 
+/// Makes the friction of each lossy gear fit the force just found; true if that changed any.
+bool ReferenceNetwork::follow_losses() {
+  bool changed = false;
+  for (const Gear& gear : gears_) {
+    if (!gear.friction) continue;
+    ReferenceLaw& law = bundles_[gear.friction->bundle].law(gear.friction->member);
+    const auto [low, high] = gear.equation.friction(gear.force);
+    if (std::max(std::abs(low - law.range().low), std::abs(high - law.range().high)) <= followed * largest_force_) continue;
+    law.set_range({low, high});
+    changed = true;
+  }
+  return changed;
+}
+
 bool ReferenceNetwork::step(const Input& input) {
   typical_step_ = 0;
   for (const Input::Bound& b : input.bounds) bundles_[b.bundle].law(b.member).bound(b.bounds);
@@ -318,8 +336,9 @@ bool ReferenceNetwork::step(const Input& input) {
     x_[n] = nodes_[n].prescribed ? input.displacement[n] : nodes_[n].velocity * input.h;
   }
   // A slider sticks up to its breakaway force and slips at its Coulomb force: which of the two is the map of this step
-  // depends on the step. Each round begins where the last one ended.
-  for (int round = 0; round < 20; ++round) {
+  // depends on the step. So do the losses of gears. Each round begins where the last one ended.
+  const bool losses = std::any_of(gears_.begin(), gears_.end(), [](const Gear& gear) { return gear.friction.has_value(); });
+  for (int round = 0; round < (losses ? rounds_of_losses : rounds_of_slips); ++round) {
     if (!minimise(input)) return false;
     bool again = false;
     for (std::size_t k = 0; k < bundles_.size(); ++k) {
@@ -337,8 +356,12 @@ bool ReferenceNetwork::step(const Input& input) {
         again = b.follow_slips(points_[k].step) || again;
       }
     }
+    again = follow_losses() || again;
     if (!again) break;
   }
+  // With gears all may be at rest all the time, in forces that none of them determines: their impulse tells what would be a motion.
+  impulse_ += largest_force_ * input.h;
+  still_ = little_stretch * (gears_.empty() ? typical_step_ : std::max(typical_step_, impulse_ / total_mass_ * input.h));
   note_ambiguity();
   std::fill(nodal_.begin(), nodal_.end(), 0.0);
   for (std::size_t k = 0; k < bundles_.size(); ++k) {

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "core/base/index.hpp"
 #include "tests/support/reference_bundle.hpp"
+#include "tests/support/transmission_equation.hpp"
 
 namespace rheonet::test {
 
@@ -31,6 +33,10 @@ class ReferenceNetwork {
     double force = 0;  ///< at the end of the last step
     double K = 0;      ///< of the spring that stands for it while a step is sought (see minimise)
     double found = 0;  ///< its force at the present point
+    TransmissionEquation equation{};
+    /// The friction of its losses, a law between its first node and its support.
+    struct Friction { std::size_t bundle, member; };
+    std::optional<Friction> friction{};
   };
   /// Input of a step.
   struct Input {
@@ -78,6 +84,7 @@ class ReferenceNetwork {
   bool minimise(const Input& input, double factor);
   double around(std::size_t bundle, double h) const;
   double around(const Gear& gear, double h) const;
+  bool follow_losses();
   bool open_at_rest() const;
   void evaluate(const Input& input);
   double tolerance(double size) const;
@@ -102,6 +109,9 @@ class ReferenceNetwork {
   double unbalance_ = 0;                ///< Largest imbalance relative to round-off.
   double largest_force_ = 0, largest_step_ = 0;  ///< At the present point.
   double typical_step_ = 0;             ///< At any balance found in this step.
+  double total_mass_ = 0;               ///< [kg]
+  double impulse_ = 0;                  ///< Sum over all steps so far of the largest force times the step [N s].
+  double still_ = 0;                    ///< What moves less in this step is at rest.
   double rounding_ = 1e-300;            ///< Round-off of forces that are computed as a fraction of a Coulomb force [N].
   bool ambiguous_ = false, forked_ = false;
 };

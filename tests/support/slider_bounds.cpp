@@ -21,7 +21,8 @@ SliderBounds slider_bounds(const SceneElement& slider, const std::function<doubl
   const auto factor = [&](const std::string& name) { return given.contains(name) ? given[name] : 1; };
   const double coulomb = given["coulomb"] * factor("normal");
   const double breakaway = given.contains("breakaway") ? given["breakaway"] * factor("normal") : coulomb;
-  return {coulomb, std::max(coulomb, breakaway * factor("peak"))};
+  const double highest = std::max(coulomb, breakaway * factor("peak"));
+  return {given.contains("stribeck") ? highest : coulomb, highest};
 }
 
 }  // namespace rheonet::test

@@ -6,7 +6,7 @@
 
 namespace rheonet::test {
 
-/// Forces of a slider [N]: while it slips, and at which it breaks away.
+/// Forces of a slider [N]: while it slips (with Stribeck's curve: slowly), and at which it breaks away.
 struct SliderBounds { double coulomb, breakaway; };
 
 /// The bounds of a slider with its `normal`, `peak` and signals. `value` returns the present value of a signal.

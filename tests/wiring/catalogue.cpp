@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <set>
 #include <string_view>
+#include <utility>
 
 #include "tests/support/random.hpp"
 #include "tests/wiring/random_wiring.hpp"
@@ -13,7 +15,7 @@ namespace {
 
 using Drive = Wiring::Drive;
 
-constexpr int random_trees = 500, random_graphs = 300, brake_trees = 400, freewheel_trees = 200, stop_trees = 250, gear_graphs = 500;
+constexpr int random_trees = 500, random_graphs = 300, brake_trees = 400, freewheel_trees = 200, stop_trees = 250, gear_graphs = 500, stribeck_trees = 300, planetary_graphs = 200, mixed_graphs = 300, lossy_graphs = 200;
 constexpr unsigned seed = 20260313;
 
 constexpr std::array<std::string_view, 4> drive_names = {"velocity", "position", "force", "force on a mass"};
@@ -83,6 +85,41 @@ class Maker {
       w.name = "gear " + described(w.graph, w.types);
       add_heavy(std::move(w), random);
     }
+    for (int k = 0; k < stribeck_trees; ++k) {
+      Wiring w;
+      w.tree = random_tree(random, 2 + k % 5);
+      w.graph = wired(*w.tree);
+      w.types = random_types(random, w.graph.branches.size());
+      for (int sliders = 1 + k % 2; sliders > 0; --sliders) any_of(w.types, random) = "stribeck";
+      w.name = "stribeck " + described(*w.tree, w.types);
+      add_heavy(std::move(w), random);
+    }
+    for (int k = 0; k < planetary_graphs; ++k) {
+      Wiring w;
+      w.graph = random_graph(random);
+      w.types = random_types(random, w.graph.branches.size());
+      for (int gears = w.graph.nodes > 5 ? 1 + k % 2 : 1; gears > 0; --gears) any_of(w.types, random) = "planetary";
+      w.name = "planetary " + described(w.graph, w.types);
+      w.rotating.assign(node_count(w.graph), 1);
+      add_heavy(std::move(w), random);
+    }
+    for (int k = 0; k < mixed_graphs; ++k) {
+      Wiring w = of_two_domains(random);
+      w.name = "domains " + described(w.graph, w.types);
+      add_heavy(std::move(w), random);
+    }
+    for (int k = 0; k < lossy_graphs; ++k) {
+      Wiring w;
+      w.graph = random_graph(random);
+      w.types = random_types(random, w.graph.branches.size());
+      // Beside the friction of a gear at rest the laws would leave open how a cfm goes on.
+      std::replace(w.types.begin(), w.types.end(), std::string("cfm"), std::string("vfm"));
+      for (int gears = w.graph.nodes > 5 ? 1 + k % 2 : 1; gears > 0; --gears) any_of(w.types, random) = "lossy";
+      w.name = "losses " + described(w.graph, w.types);
+      // An impulse passes gears without losses: the driven node must not jump.
+      std::vector<char> masses(node_count(w.graph), 1);
+      add(std::move(w), std::move(masses), Drive::force_on_mass);
+    }
     return std::move(wirings_);
   }
 
@@ -108,6 +145,32 @@ class Maker {
       std::size_t last = leaves;
       while (last > 0 && ++choice[last - 1] == law_types.size()) choice[--last] = 0;
       if (last == 0) return;
+    }
+  }
+
+  static std::string& any_of(std::vector<std::string>& types, Random& random) {
+    return types[static_cast<std::size_t>(random.below(static_cast<int>(types.size())))];
+  }
+
+  /// A random graph of which some nodes turn. One or two branches join them to those that do not.
+  static Wiring of_two_domains(Random& random) {
+    for (;;) {
+      Wiring w;
+      w.graph = random_graph(random);
+      w.types = random_types(random, w.graph.branches.size());
+      w.rotating.assign(node_count(w.graph), 0);
+      for (std::size_t n = 2; n < w.rotating.size(); ++n) w.rotating[n] = random.below(2) == 0;
+      std::set<std::pair<int, int>> joints;
+      bool once = true;
+      for (std::size_t k = 0; k < w.types.size(); ++k) {
+        auto& [a, b] = w.graph.branches[k];
+        if (a == 0 || b == 0 || w.rotating[static_cast<std::size_t>(a)] == w.rotating[static_cast<std::size_t>(b)]) continue;
+        if (!w.rotating[static_cast<std::size_t>(a)]) std::swap(a, b);
+        w.types[k] = random.below(2) == 0 ? "rack" : "screw";
+        // Two of them between the same nodes would hold these.
+        once = joints.insert({a, b}).second && once;
+      }
+      if (once && (joints.size() == 1 || joints.size() == 2)) return w;
     }
   }
 

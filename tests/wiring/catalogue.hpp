@@ -17,6 +17,7 @@ struct Wiring {
   std::optional<Tree> tree;        ///< Absent if the graph is not series-parallel.
   Graph graph;
   std::vector<char> massive;       ///< For each node: whether it has a mass.
+  std::vector<char> rotating;      ///< For each node: whether it turns; empty if none does.
   Drive drive = Drive::velocity;
 };
 
@@ -27,7 +28,9 @@ struct Wiring {
 ///  * random graphs that are not series-parallel;
 ///  * random trees of 2 to 6 leaves with a slider whose bounds vary, called `brake`, or with a freewheel;
 ///  * random trees with one or two elastic stops, and random graphs with one or two gears, whose support may move, and perhaps a stop;
-///    with a mass at each node.
+///    with a mass at each node;
+///  * random trees with a slider of Stribeck's curve, and random graphs with one or two gears with losses, with planetary gears, or of a
+///    translating and a rotating part that racks and screws join; with a mass at each node.
 const std::vector<Wiring>& catalogue();
 
 /// The netlist of a wiring: generic values that depend only on its number, no two of them equal. `stop` is about 1 s and forces are about

@@ -54,6 +54,26 @@ std::string gear(Random& random, const Graph& graph, const Graph::Branch& ends) 
   return text;
 }
 
+/// Efficiencies in both directions, and perhaps a friction of the bearings.
+std::string losses(Random& random) {
+  std::string text = fmt::format(", efficiency = [{}, {}]", random.uniform(0.6, 0.97), random.uniform(0.6, 0.97));
+  return random.below(3) == 0 ? text + fmt::format(", bearing = {}", random.around(0.2, 2)) : text;
+}
+
+/// Sun, carrier and ring of a planetary gear: those of the branch are the sun and the ring.
+std::string planetary(Random& random, const Graph& graph, const Graph::Branch& ends) {
+  int carrier = random.below(graph.nodes);
+  while (carrier == ends.a || carrier == ends.b) carrier = (carrier + 1) % graph.nodes;
+  return fmt::format("between = [\"{}\", \"{}\", \"{}\"], ratio = {}", node_name(ends.a), node_name(carrier), node_name(ends.b), random.around(1.5, 2));
+}
+
+/// A slider with Stribeck's curve.
+std::string stribeck(Random& random) {
+  const double coulomb = random.around(1, 2.5);
+  return fmt::format(", coulomb = {}, breakaway = {}, stribeck = {}, shape = {}", coulomb, coulomb * random.uniform(1.1, 1.8),
+                     random.around(0.3, 3), one_of<4>(random, {1, 2, 2, 3}));
+}
+
 std::string periodic(const char* shape, double amplitude, double frequency) {
   return fmt::format("{{ {} = {}, frequency = {} }}", shape, amplitude, frequency);
 }
@@ -129,29 +149,51 @@ std::string netlist_of(const Wiring& wiring) { return netlist_of(wiring, wiring.
 std::string netlist_of(const Wiring& wiring, const Graph& graph) {
   Random random(golden_ratio * static_cast<std::uint64_t>(wiring.number + 1));
   const double stop = random.uniform(0.8, 1.2);
-  std::string text = fmt::format("title = \"wiring {}: {}\"\n\n[elements]\n", wiring.number, wiring.name);
+  std::string text = fmt::format("title = \"wiring {}: {}\"\n", wiring.number, wiring.name);
+  // If the driven node turns, all do.
+  const bool turned = !wiring.rotating.empty() && wiring.rotating[1];
+  if (turned) text += "domain = \"rotation\"\n";
+  text += "\n[elements]\n";
   const bool by_force = wiring.drive == Wiring::Drive::force || wiring.drive == Wiring::Drive::force_on_mass;
-  text += fmt::format("drive = {{ type = \"{}\", at = \"end\", {} = {} }}\n", by_force ? "force" : "motion",
-                      by_force                                  ? "force"
+  text += fmt::format("drive = {{ type = \"{}\", at = \"end\", {} = {} }}\n", !by_force ? "motion" : turned ? "torque" : "force",
+                      by_force                                  ? (turned ? "torque" : "force")
                       : wiring.drive == Wiring::Drive::velocity ? "velocity"
                                                                 : "position",
                       signal(random, wiring.drive, stop));
   for (std::size_t k = 0; k < wiring.types.size(); ++k) {
     const bool varies = wiring.types[k] == "brake";
-    // Two sliders that hold a gear break away together, but in the reference each breaks away at its own bound.
-    const bool plain = std::find(wiring.types.begin(), wiring.types.end(), "gear") != wiring.types.end();
-    std::string values = varies ? brake(random, stop) : wiring.types[k] == "gear" ? gear(random, graph, graph.branches[k]) : parameters(random, wiring.types[k]);
-    if (plain) values = values.substr(0, values.find(", breakaway"));
+    // Two sliders that hold a gear break away together, but in the reference each breaks away at its own bound. So do two of which
+    // one has Stribeck's curve, where a drive jumps.
+    const bool plain = std::any_of(wiring.types.begin(), wiring.types.end(), [](const std::string& type) {
+      return type == "gear" || type == "lossy" || type == "stribeck" || type == "planetary" || type == "rack" || type == "screw";
+    });
+    std::string type = wiring.types[k];
     auto [a, b] = graph.branches[k];
+    if (type == "planetary") {
+      text += fmt::format("e{} = {{ type = \"planetary\", {} }}\n", k + 1, planetary(random, graph, graph.branches[k]));
+      continue;
+    }
+    if (type == "rack" || type == "screw") {
+      const std::string size = type == "rack" ? fmt::format("radius = {}", random.around(0.8, 2)) : fmt::format("lead = {}", random.sign() * random.around(5, 2));
+      text += fmt::format("e{} = {{ type = \"{}\", between = [\"{}\", \"{}\"], {} }}\n", k + 1, type, node_name(a), node_name(b), size);
+      continue;
+    }
+    std::string values = varies              ? brake(random, stop)
+                         : type == "gear"    ? gear(random, graph, graph.branches[k])
+                         : type == "lossy"   ? gear(random, graph, graph.branches[k]) + losses(random)
+                         : type == "stribeck" ? stribeck(random)
+                                             : parameters(random, type);
+    if (plain && type != "stribeck") values = values.substr(0, values.find(", breakaway"));
     if (random.below(2) == 0) std::swap(a, b);
-    text += fmt::format("e{} = {{ type = \"{}\", between = [\"{}\", \"{}\"]{} }}\n", k + 1, varies ? "slider" : wiring.types[k],
-                        node_name(a), node_name(b), values);
+    if (varies || type == "stribeck") type = "slider";
+    if (type == "lossy") type = "gear";
+    text += fmt::format("e{} = {{ type = \"{}\", between = [\"{}\", \"{}\"]{} }}\n", k + 1, type, node_name(a), node_name(b), values);
   }
   for (std::size_t n = 1; n < wiring.massive.size(); ++n) {
     const double mass = random.around(0.03, 3);
     if (wiring.massive[n]) {
-      text += fmt::format("m_{0} = {{ type = \"mass\", at = \"{0}\", mass = {1} }}\n", node_name(static_cast<int>(n)),
-                          mass);
+      const char* kind = !wiring.rotating.empty() && wiring.rotating[n] ? "inertia" : "mass";
+      text += fmt::format("m_{0} = {{ type = \"{1}\", at = \"{0}\", {1} = {2} }}\n", node_name(static_cast<int>(n)), kind, mass);
     }
   }
   return text + fmt::format("\n[simulate]\nstop = {}\naccuracy = 1e-6\noutput = {{ points = {} }}\n", stop, intervals + 1);
