@@ -3,11 +3,45 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "core/base/index.hpp"
 #include "core/base/numerics.hpp"
 
 namespace rheonet {
+
+namespace {
+
+bool moved(const Network::Train& train, std::size_t k) { return train.node[k] != ground && train.factor[k] != 0; }
+
+}  // namespace
+
+Stopping::Stopping(const Network& network) : network_(network), carried_seen_(network.rates.size(), 0) {
+  std::map<NodeId, std::vector<const Network::Train*>> trains_at;
+  for (const Network::Train& train : network.trains) {
+    for (std::size_t k = 0; k < train.node.size(); ++k) {
+      if (moved(train, k)) trains_at[train.node[k]].push_back(&train);
+    }
+  }
+  for (const auto& [first, unused] : trains_at) {
+    if (geared_.contains(first)) continue;
+    const std::size_t group = cancelling_.size();
+    cancelling_.push_back(0);
+    geared_[first] = {group, 1};
+    std::vector<NodeId> reached{first};
+    for (std::size_t r = 0; r < reached.size(); ++r) {
+      for (const Network::Train* train : trains_at[reached[r]]) {
+        if (moved(*train, 0) && moved(*train, 1) && moved(*train, 2)) cancelling_[group] = 1;
+        const std::size_t own = at(std::find(train->node.begin(), train->node.end(), reached[r]) - train->node.begin());
+        for (std::size_t k = 0; k < train->node.size(); ++k) {
+          if (!moved(*train, k) || geared_.contains(train->node[k])) continue;
+          geared_[train->node[k]] = {group, geared_[reached[r]].scale * std::abs(train->factor[k] / train->factor[own])};
+          reached.push_back(train->node[k]);
+        }
+      }
+    }
+  }
+}
 
 void Stopping::attach(const Dae& dae) {
   limit_.clear();
@@ -19,9 +53,18 @@ void Stopping::attach(const Dae& dae) {
 
 void Stopping::find(const Dae::View& view, const Magnitudes& seen, double local) {
   std::fill(limit_.begin(), limit_.end(), std::numeric_limits<double>::infinity());
+  std::vector<double> fastest(cancelling_.size(), 0);
+  for (const auto& [node, geared] : geared_) {
+    if (cancelling_[geared.group]) fastest[geared.group] = std::max(fastest[geared.group], geared.scale * std::abs(view.velocity[at(node)]));
+  }
+  // A velocity has the round-off of those from which it follows.
+  const auto carried = [&](NodeId node) {
+    const auto geared = geared_.find(node);
+    return geared == geared_.end() ? 0 : fastest[geared->second.group] / geared->second.scale;
+  };
   for (const StopChain& chain : chains_) {
     const double common = std::min(std::abs(view.velocity[at(chain.a)]), std::abs(view.velocity[at(chain.b)]));
-    const double together = std::max({common, carried_by_trains(chain.a, view.velocity), carried_by_trains(chain.b, view.velocity)});
+    const double together = std::max({common, carried(chain.a), carried(chain.b)});
     double most = 0, least = 0, dead_band = 0, largest_exponent = 0;
     for (const int r : chain.rates) {
       carried_seen_[at(r)] = std::max(carried_seen_[at(r)], together);
@@ -40,19 +83,6 @@ void Stopping::find(const Dae::View& view, const Magnitudes& seen, double local)
     most = std::max({steepening * most, least, dead_band});
     for (const NodeId node : {chain.a, chain.b}) limit_[at(node)] = std::min(limit_[at(node)], most);
   }
-}
-
-/// The largest part of a node's velocity that another node of a transmission gives it: such parts may cancel.
-double Stopping::carried_by_trains(NodeId node, const std::vector<double>& velocity) const {
-  double largest = 0;
-  for (const Network::Train& train : network_.trains) {
-    const auto own = std::find(train.node.begin(), train.node.end(), node);
-    if (own == train.node.end() || train.factor[at(own - train.node.begin())] == 0) continue;
-    for (std::size_t k = 0; k < train.node.size(); ++k) {
-      if (train.node[k] != node) largest = std::max(largest, std::abs(train.factor[k] / train.factor[at(own - train.node.begin())] * velocity[at(train.node[k])]));
-    }
-  }
-  return largest;
 }
 
 double Stopping::carried_noise(std::size_t rate, double local) const {

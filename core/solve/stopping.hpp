@@ -1,6 +1,7 @@
 #pragma once
 
 #include <limits>
+#include <map>
 #include <vector>
 
 #include "core/solve/magnitudes.hpp"
@@ -14,7 +15,7 @@ namespace rheonet {
 class Stopping {
  public:
   /// The network must outlive this.
-  explicit Stopping(const Network& network) : network_(network), carried_seen_(network.rates.size(), 0) {}
+  explicit Stopping(const Network& network);
   /// Switches to these equations.
   void attach(const Dae& dae);
   /// Finds the limits in this state. `local`: tolerance of a step, relative to scales.
@@ -26,10 +27,14 @@ class Stopping {
   double unfelt(int rate, const Magnitudes& seen, double local) const;
 
  private:
-  double carried_by_trains(NodeId node, const std::vector<double>& velocity) const;
   double carried_noise(std::size_t rate, double local) const;
 
+  /// A node of transmissions: those that they join are a group. Times `scale`, the velocities in it compare.
+  struct Geared { std::size_t group; double scale; };
+
   const Network& network_;
+  std::map<NodeId, Geared> geared_;
+  std::vector<char> cancelling_;  ///< For each group: velocities of three nodes in it sum to 0, and may cancel.
   std::vector<StopChain> chains_;      ///< In the present modes.
   std::vector<double> limit_;          ///< For each node; empty without power laws.
   std::vector<double> carried_seen_;   ///< For each rate branch: largest velocity common to both ends, or of a transmission that moves one [m/s].

@@ -27,7 +27,8 @@ bool ReferenceNetwork::open_at_rest() const {
     add(terms);
   }
   for (std::size_t k = 0; k < bundles_.size(); ++k) {
-    if (std::abs(points_[k].step) > still_ || !bundles_[k].set_valued()) continue;
+    // Friction that grows with a force may jam, or slip, in one and the same state.
+    if (!bundles_[k].set_valued() || (!losses() && std::abs(points_[k].step) > still_)) continue;
     if (unknown_[at(bundles_[k].a)] < 0 && unknown_[at(bundles_[k].b)] < 0) continue;
     add(std::vector<std::pair<NodeId, double>>{{bundles_[k].a, 1}, {bundles_[k].b, -1}});
   }
@@ -64,7 +65,7 @@ void ReferenceNetwork::note_ambiguity() {
   }
   loop = loop || open_at_rest();
   ambiguous_ = ambiguous_ || loop;
-  forked_ = forked_ || (loop && relaxing);
+  forked_ = forked_ || (loop && (relaxing || losses()));
 }
 
 }  // namespace rheonet::test

@@ -315,6 +315,10 @@ bool ReferenceNetwork::minimise(const Input& input, double factor) {
   return false;
 }
 
+bool ReferenceNetwork::losses() const {
+  return std::any_of(gears_.begin(), gears_.end(), [](const Gear& gear) { return gear.friction.has_value(); });
+}
+
 /// Makes the friction of each lossy gear fit the force just found; true if that changed any.
 bool ReferenceNetwork::follow_losses() {
   bool changed = false;
@@ -337,8 +341,7 @@ bool ReferenceNetwork::step(const Input& input) {
   }
   // A slider sticks up to its breakaway force and slips at its Coulomb force: which of the two is the map of this step
   // depends on the step. So do the losses of gears. Each round begins where the last one ended.
-  const bool losses = std::any_of(gears_.begin(), gears_.end(), [](const Gear& gear) { return gear.friction.has_value(); });
-  for (int round = 0; round < (losses ? rounds_of_losses : rounds_of_slips); ++round) {
+  for (int round = 0; round < (losses() ? rounds_of_losses : rounds_of_slips); ++round) {
     if (!minimise(input)) return false;
     bool again = false;
     for (std::size_t k = 0; k < bundles_.size(); ++k) {

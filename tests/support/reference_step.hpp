@@ -84,6 +84,7 @@ class ReferenceNetwork {
   bool minimise(const Input& input, double factor);
   double around(std::size_t bundle, double h) const;
   double around(const Gear& gear, double h) const;
+  bool losses() const;
   bool follow_losses();
   bool open_at_rest() const;
   void evaluate(const Input& input);
