@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -185,6 +186,11 @@ StickForces::StickForces(const Network& network, const Structure& structure, con
       shared.with_trains.unit.push_back(unit(network.trains[train].element));
       ++column;
     }
+    Eigen::ColPivHouseholderQR<Eigen::MatrixXd> factors(balance.rows(), balance.cols());
+    factors.setThreshold(numerics::equal_values);
+    factors.compute(balance * Eigen::Map<const Eigen::VectorXd>(shared.with_trains.unit.data(), balance.cols()).cwiseInverse().asDiagonal());
+    const Eigen::MatrixXd all = factors.householderQ() * Eigen::MatrixXd::Identity(balance.rows(), balance.rows());
+    shared.accelerated = all.rightCols(balance.rows() - factors.rank());
   }
 }
 
@@ -202,6 +208,11 @@ void StickForces::solve(double t, const std::vector<double>& others, std::vector
     if (!std::isfinite(sum)) {  // the integrator tries too long a step: it rejects states that are not finite
       for (const std::size_t k : shared.sliders) force[k] = std::numeric_limits<double>::quiet_NaN();
       continue;
+    }
+    // What accelerates the nodes together has been found with their accelerations. Its error is no load of these forces.
+    if (shared.accelerated.cols() > 0) {
+      Eigen::Map<Eigen::VectorXd> load(shared.load.data(), shared.accelerated.rows());
+      load -= shared.accelerated * (shared.accelerated.transpose() * load);
     }
     for (std::size_t i = 0; i < shared.sliders.size(); ++i) {
       const std::size_t k = shared.sliders[i];

@@ -31,6 +31,7 @@ class StickForces {
     std::vector<NodeId> nodes;                 ///< of each node of the problem
     BoxedForces problem{0, {}};                ///< without trains
     LeastNorm with_trains;                     ///< with them
+    Eigen::MatrixXd accelerated;               ///< with trains: loads that no such force can hold, orthonormal, one a column
     std::vector<double> load, force;
     void bound(std::size_t slider, double low, double high);
     bool solve();
