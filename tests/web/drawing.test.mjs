@@ -436,6 +436,8 @@ test('every element type of rheonet is in the palette', async () => {
   const types = [...stdout.matchAll(/^ {2}([a-z]\w*)(?:, \w+)? /gm)].map(([, type]) => type);
   assert.ok(types.length > 25);
   assert.deepEqual([...shown].sort(), [...types].sort());
+  // Letters are explained, words are not.
+  assert.deepEqual(await page.locator('.palette-meaning').allTextContents(), ['solid friction model', 'viscous friction model', 'combined friction model']);
   await close();
 });
 

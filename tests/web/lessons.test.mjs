@@ -263,6 +263,12 @@ test('the gallery has level and minutes, the easiest first, and opens the lesson
   const levels = (await page.locator('.card-lesson').allTextContents()).map((words) => ['beginner', 'intermediate', 'advanced'].findIndex((level) => words.includes(level)));
   assert.equal(levels.length, lessons.length);
   assert.deepEqual(levels, [...levels].sort());
+  await page.getByLabel('Level').selectOption('advanced');
+  assert.equal(await page.locator('.card:visible').count(), levels.filter((level) => level === 2).length);
+  await page.locator('.gallery input').fill('no such words');
+  assert.match(await page.textContent('.gallery [role=status]'), /No netlist has the words “no such words”/);
+  await page.locator('.gallery input').fill('');
+  await page.getByLabel('Level').selectOption('');
   await first.click();
   await offered(page);
   assert.ok(page.url().endsWith('#lesson=teaching%2Foscillator-free.toml'), page.url());

@@ -63,7 +63,7 @@ k2 = { type = "spring", between = ["mid", "ground"], stiffness = "100 N/m" }
 stop = "1 s"
 record = ["hand.position", "k2.force"]
 `;
-const desk = setUp({ 'loop.toml': loop, 'oscillator.toml': oscillator, 'turning.toml': turning, 'wide.toml': wide });
+const desk = setUp({ 'equal.toml': loop.replace('"hand.position"', '"k1.force"'), 'loop.toml': loop, 'oscillator.toml': oscillator, 'turning.toml': turning, 'wide.toml': wide });
 const { open } = desk;
 const file = '#file=oscillator.toml';
 
@@ -284,6 +284,16 @@ test('of many records a few are shown, and the others are one click away', async
   await page.locator('button.all-own').click();
   assert.equal(await shown(), 10);
   await close();
+});
+
+test('a curve that covers another one, which is the same, is broken', async () => {
+  const broken = (page) => page.evaluate(() => [...document.querySelectorAll('.chart')].map((chart) => chart.dataset.broken).join(''));
+  const { page, close } = await open('#file=loop.toml');
+  assert.equal(await broken(page), '');
+  await close();
+  const equal = await open('#file=equal.toml');
+  assert.equal(await broken(equal.page), 'k2.force');
+  await equal.close();
 });
 
 test('any two records are drawn against each other: the force of an element over the position of a driven node', async () => {

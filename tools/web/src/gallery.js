@@ -1,7 +1,7 @@
 // The netlists of the folder, to choose from.
 import { open, task } from './api.js';
 import { element, schematicOf } from './dom.js';
-import { aboutLesson, titleOf } from './lesson.js';
+import { aboutLesson, levels, titleOf } from './lesson.js';
 import { t } from './messages.js';
 import { inWords } from './sections.js';
 
@@ -27,13 +27,15 @@ export class Gallery {
   constructor({ onopen, onnew }) {
     this.onopen = onopen;
     this.find = element('input', { type: 'search', placeholder: t('find'), 'aria-label': t('Find netlists') });
+    this.level = element('select', { 'aria-label': t('Level') }, element('option', { value: '' }, t('all levels')),
+      Object.entries(levels).map(([level, name]) => element('option', { value: level }, name)));
     this.list = element('div', { class: 'cards' });
     this.dialog = element('dialog', { class: 'gallery', 'aria-labelledby': 'gallery-title' },
-      element('div', { class: 'dialog-head' }, element('h2', { id: 'gallery-title' }, t('Gallery')), this.find,
+      element('div', { class: 'dialog-head' }, element('h2', { id: 'gallery-title' }, t('Gallery')), this.find, this.level,
         element('button', { type: 'button', onclick: () => (this.dialog.close(), onnew()) }, t('New scene')),
         element('button', { type: 'button', onclick: () => this.dialog.close(), 'aria-label': t('Close') }, '✕')),
       (this.nothing = element('p', { class: 'note', role: 'status' })), this.list);
-    this.find.addEventListener('input', () => this.filter());
+    for (const field of [this.find, this.level]) field.addEventListener('input', () => this.filter());
     document.body.append(this.dialog);
     this.drawn = new IntersectionObserver((items) => items.forEach((item) => item.isIntersecting && this.draw(item.target)), { rootMargin: '100px' });
   }
@@ -52,12 +54,13 @@ export class Gallery {
       element('section', { class: 'card-group' }, folder ? element('h3', {}, folder) : null,
         element('div', { class: 'card-grid' }, groups.get(folder).sort(inOrder).map((scene) => this.card(scene))))));
     if (leftOut || !allVisited) this.list.append(element('p', { class: 'note' }, leftOutOf(scenes.length, leftOut, allVisited)));
+    this.level.hidden = !scenes.some((scene) => scene.lesson?.level);
     if (!scenes.length) this.list.append(element('p', { class: 'note' }, t('The folder has no netlists yet: write one in the editor, and save it.')));
   }
 
   card(scene) {
     const picture = element('div', { class: 'card-picture', 'aria-hidden': 'true' });
-    const card = element('button', { type: 'button', class: 'card', 'data-file': scene.file },
+    const card = element('button', { type: 'button', class: 'card', 'data-file': scene.file, 'data-level': scene.lesson?.level },
       picture, element('span', { class: 'card-title' }, titleOf(scene)),
       scene.lesson ? element('span', { class: 'card-lesson' }, t('Lesson: {about}', { about: aboutLesson(scene.lesson) })) : null,
       element('span', { class: 'card-about' }, scene.about || scene.file),
@@ -97,15 +100,18 @@ export class Gallery {
     const words = this.find.value.toLowerCase().split(/\s+/).filter(Boolean);
     for (const card of this.list.querySelectorAll('.card')) {
       const text = `${card.dataset.file} ${card.textContent}`.toLowerCase();
-      card.hidden = !words.every((word) => text.includes(word));
+      card.hidden = !words.every((word) => text.includes(word)) || Boolean(this.level.value && card.dataset.level !== this.level.value);
     }
     for (const group of this.list.querySelectorAll('.card-group')) group.hidden = !group.querySelector('.card:not([hidden])');
-    const found = this.list.querySelector('.card:not([hidden])') || !words.length;
-    this.nothing.textContent = found ? '' : t('No netlist has the words “{words}” in its name, title or question.', { words: this.find.value.trim() });
+    const found = this.list.querySelector('.card:not([hidden])');
+    const fits = words.length
+      ? t('No netlist has the words “{words}” in its name, title or question.', { words: this.find.value.trim() })
+      : t('No netlist has a lesson of this level.');
+    this.nothing.textContent = found || !(words.length || this.level.value) ? '' : fits;
   }
 
   open() {
-    this.find.value = '';
+    this.find.value = this.level.value = '';
     this.filter();
     this.dialog.showModal();
     this.find.focus();

@@ -3,6 +3,12 @@ import { groupNames } from './catalogue.js';
 import { element } from './dom.js';
 import { t } from './messages.js';
 
+// What the letters of an abbreviation stand for, if the text about it begins with these words.
+function meaningOf(type, about) {
+  const name = about.split(':')[0];
+  return type.length > 1 && name.split(' ').map((word) => word[0]).join('') === type ? name : null;
+}
+
 export class Palette {
   // onchoose(type): clicked; ondrop(type, x, y): let go at a place of the window.
   constructor(host, { onchoose, ondrop }) {
@@ -30,7 +36,9 @@ export class Palette {
   button(type, symbol, about) {
     const picture = element('span', { class: 'symbol' });
     picture.innerHTML = symbol;
-    const button = element('button', { type: 'button', class: 'palette-type', title: about, 'data-type': type }, picture, type);
+    const meaning = meaningOf(type, about);
+    const button = element('button', { type: 'button', class: 'palette-type', title: about, 'data-type': type }, picture, type,
+      meaning ? element('span', { class: 'palette-meaning' }, meaning) : null);
     button.addEventListener('click', () => {
       if (!this.dragged) this.onchoose(type);
       this.dragged = false;

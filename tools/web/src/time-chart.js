@@ -18,6 +18,16 @@ function joined(runs) {
   }
 }
 
+const same = 2e-3; // Curves that differ by less, as a share of the largest value, look like one.
+const broken = [8, 8]; // px
+
+// For each curve, whether it would cover an earlier one that is the same.
+function coveringOf(curves, values) {
+  const isSame = (a, b) => a.length === b.length && largest > 0 && a.every((value, k) => Math.abs(value - b[k]) <= same * largest);
+  const largest = Math.max(...values.map((column) => largestOf([column])), 0);
+  return curves.map((curve, k) => k < 12 && curves.some((other, j) => j < k && other.time === curve.time && isSame(values[k], values[j])));
+}
+
 // Panels that share their time axis.
 export class TimeGroup {
   constructor() {
@@ -55,12 +65,11 @@ export class TimeChart extends Chart {
     this.as = as; // the unit that somebody wants
     this.curves = curves;
     this.findUnit();
-    const dashOf = (curve, k) => (curve.dash ?? Math.floor(k / 7)) % dashes.length;
+    const dashOf = (this.dashOf = (curve, k) => (curve.dash ?? Math.floor(k / 7)) % dashes.length);
     const series = curves.map((curve, k) => ({
       label: curve.name,
       stroke: () => colour(first + (curve.style ?? k)),
       width: 1.6,
-      dash: dashes[dashOf(curve, k)],
       spanGaps: true,
       pxAlign: 0,
       points: { show: false },
@@ -79,7 +88,7 @@ export class TimeChart extends Chart {
         cursor: { sync: { key: group.sync.key, setSeries: false }, drag: { x: true, y: false } },
         legend: { live: true, markers: { width: 3, fill: () => 'transparent', dash: (_, k) => (k > 0 ? borders[dashOf(curves[k - 1], k - 1)] : 'solid') } },
         hooks: {
-          drawClear: [(plot) => this.drawEvents(plot)],
+          drawClear: [(plot) => this.breakCovering(plot), (plot) => this.drawEvents(plot)],
           draw: [(plot) => this.tellRanges(plot)],
           // The legend has a time only while somebody points at one.
           setCursor: [(plot) => host.classList.toggle('pointed', typeof plot.cursor.idx === 'number')],
@@ -103,6 +112,13 @@ export class TimeChart extends Chart {
     this.span = data[0].length ? [data[0][0], data[0].at(-1)] : null;
     this.timeUnit = timeShown(...(this.span ?? [0, 0]));
     return data;
+  }
+
+  // A curve on another one that is the same is broken, so that both are seen.
+  breakCovering(plot) {
+    const covers = coveringOf(this.curves, this.curves.map((curve) => curve.values));
+    this.curves.forEach((curve, k) => (plot.series[k + 1].dash = covers[k] ? broken : dashes[this.dashOf(curve, k)]));
+    this.host.dataset.broken = this.curves.filter((_, k) => covers[k]).map((curve) => curve.name).join(' ');
   }
 
   // New values in place of the old ones; the zoom stays.
