@@ -16,11 +16,25 @@ bool moved(const Network::Train& train, std::size_t k) { return train.node[k] !=
 
 }  // namespace
 
-Stopping::Stopping(const Network& network) : network_(network), carried_seen_(network.rates.size(), 0) {
-  std::map<NodeId, std::vector<const Network::Train*>> trains_at;
-  for (const Network::Train& train : network.trains) {
+Stopping::Stopping(const Network& network) : network_(network), carried_seen_(network.rates.size(), 0) {}
+
+void Stopping::attach(const Dae& dae) {
+  limit_.clear();
+  chains_.clear();
+  geared_.clear();
+  cancelling_.clear();
+  if (!dae.rough()) return;
+  limit_.assign(dae.structure().kind.size(), std::numeric_limits<double>::infinity());
+  chains_ = find_stop_chains(network_, dae.structure());
+  find_geared(dae.structure());
+}
+
+void Stopping::find_geared(const Structure& structure) {
+  const auto head = [&](const Network::Train& train, std::size_t k) { return structure.rigid[at(train.node[k])]; };
+  std::map<NodeId, std::vector<std::pair<const Network::Train*, std::size_t>>> trains_at;
+  for (const Network::Train& train : network_.trains) {
     for (std::size_t k = 0; k < train.node.size(); ++k) {
-      if (moved(train, k)) trains_at[train.node[k]].push_back(&train);
+      if (moved(train, k)) trains_at[head(train, k)].emplace_back(&train, k);
     }
   }
   for (const auto& [first, unused] : trains_at) {
@@ -30,25 +44,16 @@ Stopping::Stopping(const Network& network) : network_(network), carried_seen_(ne
     geared_[first] = {group, 1};
     std::vector<NodeId> reached{first};
     for (std::size_t r = 0; r < reached.size(); ++r) {
-      for (const Network::Train* train : trains_at[reached[r]]) {
+      for (const auto& [train, own] : trains_at[reached[r]]) {
         if (moved(*train, 0) && moved(*train, 1) && moved(*train, 2)) cancelling_[group] = 1;
-        const std::size_t own = at(std::find(train->node.begin(), train->node.end(), reached[r]) - train->node.begin());
         for (std::size_t k = 0; k < train->node.size(); ++k) {
-          if (!moved(*train, k) || geared_.contains(train->node[k])) continue;
-          geared_[train->node[k]] = {group, geared_[reached[r]].scale * std::abs(train->factor[k] / train->factor[own])};
-          reached.push_back(train->node[k]);
+          if (!moved(*train, k) || geared_.contains(head(*train, k))) continue;
+          geared_[head(*train, k)] = {group, geared_[reached[r]].scale * std::abs(train->factor[k] / train->factor[own])};
+          reached.push_back(head(*train, k));
         }
       }
     }
   }
-}
-
-void Stopping::attach(const Dae& dae) {
-  limit_.clear();
-  chains_.clear();
-  if (!dae.rough()) return;
-  limit_.assign(dae.structure().kind.size(), std::numeric_limits<double>::infinity());
-  chains_ = find_stop_chains(network_, dae.structure());
 }
 
 void Stopping::find(const Dae::View& view, const Magnitudes& seen, double local) {

@@ -27,6 +27,7 @@ class Stopping {
   double unfelt(int rate, const Magnitudes& seen, double local) const;
 
  private:
+  void find_geared(const Structure& structure);
   double carried_noise(std::size_t rate, double local) const;
 
   /// A node of transmissions: those that they join are a group. Times `scale`, the velocities in it compare.

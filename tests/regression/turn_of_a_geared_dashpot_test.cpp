@@ -47,4 +47,35 @@ output = {{ points = 41 }}
   }
 }
 
+// Refused in the first microsecond: a gear of two nodes hid that the dashpot is at the support of another one.
+TEST_CASE("a thin dashpot behind a gear from the support of another turns at any accuracy") {
+  constexpr double F = 0.7, f = 2.5, i = 0.51, m_end = 0.01, m2 = 0.06, m3 = 0.012, m4 = 0.011, k = 34.5, B = 1.12;
+  for (const double accuracy : {1e-10, 1e-8, 1e-6, 1e-3}) {
+    CAPTURE(accuracy);
+    Summary summary;
+    const RunTable run = simulate(scene_of(fmt::format(R"([elements]
+drive = {{ type = "force", at = "end", force = {{ square = {}, frequency = {} }} }}
+e2    = {{ type = "vfm", between = ["n3", "end"], stiffness = {}, damping = {} }}
+first = {{ type = "gear", between = ["n1", "n4"], ratio = -1.03 }}
+thin  = {{ type = "dashpot", between = ["ground", "n4"], damping = 4.31, flow_index = 0.5 }}
+gear  = {{ type = "gear", between = ["n3", "n2"], ratio = {}, support = "n1" }}
+m_end = {{ type = "mass", at = "end", mass = {} }}
+m2    = {{ type = "mass", at = "n2", mass = {} }}
+m3    = {{ type = "mass", at = "n3", mass = {} }}
+m4    = {{ type = "mass", at = "n4", mass = {} }}
+[simulate]
+stop = 0.8
+output = {{ points = 41 }}
+)", -F, f, k, B, i, m_end, m2, m3, m4), accuracy), &summary);
+    CHECK(summary.steps < 20'000);
+    // The gear passes on the forces g at n3 and -i g at n2. The force on the end changes its sign after each 10 rows.
+    double impulse = 0, worst = 0;
+    for (std::size_t row = 0; row < run.time().size(); ++row) {
+      if (row > 0) impulse += F * (row % 20 > 0 && row % 20 <= 10 ? -1 : 1) * 0.02;
+      worst = std::max(worst, std::abs(m_end * run["end.velocity"][row] + m3 * run["n3.velocity"][row] + m2 / i * run["n2.velocity"][row] - impulse));
+    }
+    CHECK(worst <= 10 * accuracy * F / (2 * f));
+  }
+}
+
 }  // namespace rheonet::test::turn_of_a_geared_dashpot_test
