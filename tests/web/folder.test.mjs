@@ -110,26 +110,28 @@ test('a host that others can reach is announced with a warning, and by an addres
   assert.match(everywhere.stdout, /^http:\/\/127\.0\.0\.1:\d+\/\?token=\w{32} /);
   assert.doesNotMatch(everywhere.stdout, /0\.0\.0\.0/);
   const others = Object.values(networkInterfaces()).flat().filter(({ family, internal }) => family === 'IPv4' && !internal);
-  for (const { address } of others) assert.match(everywhere.stdout, new RegExp(`from other machines, to type: http://${address.replaceAll('.', '\\.')}:\\d+/[a-z2-9]{4}-[a-z2-9]{4}\\n`));
-  assert.match(everywhere.stderr, /warning: `--host 0\.0\.0\.0` lets other machines in: .*address.* change the netlists/);
+  for (const { address } of others) assert.match(everywhere.stdout, new RegExp(`from other machines, to type: http://${address.replaceAll('.', '\\.')}:\\d+/[a-z2-9]{4}-[a-z2-9]{4} \\(saves nothing here\\)\\n`));
+  assert.match(everywhere.stderr, /warning: `--host 0\.0\.0\.0` lets other machines in: .*an address can run scenes.*with the token can change the netlists/);
   for (const host of ['127.0.0.1', 'localhost']) assert.equal(said(host).stderr, '', host);
   remove(other);
 });
 
-test('the short address leads in, however it is typed, and is not found by trying', async () => {
+test('the short address leads in as a guest, however it is typed, and is not found by trying', async () => {
   const other = folderWith({ 'a.toml': '' });
   const server = spawn(program, ['serve', other, '--port', '0', '--host', '0.0.0.0'], { stdio: ['ignore', 'pipe', 'ignore'] });
   let said = '';
   server.stdout.on('data', (piece) => (said += piece));
-  for (let k = 0; k < 200 && !/to type: \S+\n/.test(said); ++k) await new Promise((resolve) => setTimeout(resolve, 50));
+  for (let k = 0; k < 200 && !/to type: \S+ .*\n/.test(said); ++k) await new Promise((resolve) => setTimeout(resolve, 50));
   const [, origin] = /(http:\/\/127\.0\.0\.1:\d+)\//.exec(said);
-  const token = /token=\w+/.exec(said)[0];
   const code = /to type: http:\/\/[^/]+\/(\S+)/.exec(said)?.[1];
   if (code) {
     for (const typed of [code, code.toUpperCase(), code.replace('-', '')]) {
       const answer = await fetch(`${origin}/${typed}`, { redirect: 'manual' });
       assert.equal(answer.status, 302, typed);
-      assert.equal(answer.headers.get('location'), `/?${token}`);
+      const [, key] = /^\/\?guest=(\w+)$/.exec(answer.headers.get('location'));
+      const asked = (path, body) => fetch(`${origin}${path}`, { method: body ? 'POST' : 'GET', body, headers: { Authorization: `Bearer ${key}`, 'Content-Type': 'application/json' } });
+      assert.equal((await asked('/api/folder')).status, 200);
+      assert.equal((await asked('/api/save', JSON.stringify({ file: 'a.toml', text: 'x', opened: '' }))).status, 403);
     }
     const wrong = code.replace(/^./, (letter) => (letter === 'a' ? 'b' : 'a'));
     const answers = [];

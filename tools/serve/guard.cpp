@@ -114,7 +114,7 @@ bool Keys::lead_in(const httplib::Request& request, httplib::Response& response)
     response.status = 429;
     response.set_content("Too many addresses were tried. Wait a few seconds, and load this page again.\n", "text/plain; charset=utf-8");
   } else if (is_same(code, code_)) {
-    response.set_redirect("/" + query());
+    response.set_redirect("/" + guest_query());
   } else {
     response.status = 404;
     response.set_content("This address is not the one that `rheonet serve` has printed. Compare the letters.\n", "text/plain; charset=utf-8");

@@ -18,7 +18,7 @@ namespace rheonet::serve {
 /// class that has the link of a lesson cannot change the files of the teacher.
 ///
 /// For typing on another machine there is a shorter address, with a code of 8 letters and digits (40 random bits), which redirects to the
-/// address with the token. Wrong codes are answered at a limited rate, so that the code cannot be guessed: half of all codes take 3500 years
+/// address with the key of guests. Wrong codes are answered at a limited rate, so that the code cannot be guessed: half of all codes take 3500 years
 /// at 5 tries a second.
 class Keys {
  public:

@@ -121,12 +121,12 @@ void announce(const ServeArguments& wanted, const Folder& folder, const Keys& ke
   fmt::print("{}{} (Ctrl-C ends it): the netlists of {}\n", address_of(hosts.front(), port), keys.query(),
              printable(folder.path().string()));
   for (const std::string& host : hosts)
-    if (!is_this_machine(host)) fmt::print("  from other machines, to type: {}{}\n", address_of(host, port), keys.short_path());
+    if (!is_this_machine(host)) fmt::print("  from other machines, to type: {}{} (saves nothing here)\n", address_of(host, port), keys.short_path());
   std::fflush(stdout);
   if (!is_this_machine(wanted.host))
-    say("warning: `--host {}` lets other machines in: whoever has the address can run scenes here{}, and who listens "
-        "in the network can read the address, for nothing is encrypted\n",
-        printable(wanted.host), folder.may_be_written() ? " and change the netlists of the folder" : "");
+    say("warning: `--host {}` lets other machines in: whoever has an address can run scenes here{}, and who listens "
+        "in the network can read them, for nothing is encrypted\n",
+        printable(wanted.host), folder.may_be_written() ? ", who has the one with the token can change the netlists of the folder" : "");
 }
 
 ExitStatus listen(const ServeArguments& wanted, Folder& folder) {
