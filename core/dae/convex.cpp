@@ -262,12 +262,12 @@ bool ConvexNetwork::stick_where_idle() {
 /// that gain nothing say less.
 bool ConvexNetwork::answer_balances(Sums& sums) const {
   if (balanced(sums)) return true;
-  constexpr double roundoffs = numerics::runaway_imbalance / numerics::convex_balance_roundoff;
-  const double negligible = numerics::runaway_imbalance * largest_force();
+  const double negligible = numerics::answer_imbalance * largest_force();
   std::vector<double> allowed = sums.rounding;
-  for (double& force : allowed) force = std::max(roundoffs * force, negligible);
+  for (double& sum : allowed) sum += negligible;
   for (const Branch& b : branches_) {
-    const double blur = value_rounding * (std::abs(value(b.a)) + std::abs(value(b.b)));
+    double blur = 0;
+    for (const int node : {b.a, b.b}) blur += value_rounding * (std::abs(base_[at(node)]) + std::abs(u_[at(node)]));
     if (clusters_.joined(b.a, b.b) || blur == 0) continue;
     const double range = b.force(b.w + blur, 1) - b.force(b.w - blur, -1);
     for (const int node : {b.a, b.b}) {
@@ -307,7 +307,7 @@ ConvexNetwork::Outcome ConvexNetwork::minimise() {
   Sums sums;
   std::vector<double> d;
   int idle = 0;  // rounds in a row without gain
-  double least = std::numeric_limits<double>::infinity();  // least imbalance since the last release
+  double halving = 0;  // the imbalance that is to be halved
   int stagnant = 0;
   bool looked_again = false;  // since the last step
   int releases = 0;
@@ -351,16 +351,18 @@ ConvexNetwork::Outcome ConvexNetwork::minimise() {
       idle = -descent <= roundoff_along(d, sums) ? idle + 1 : 0;
       double left = 0;
       for (double g : sums.all) left = std::max(left, std::abs(g));
-      stagnant = left < least / 2 ? 0 : stagnant + 1;
-      least = std::min(least, left);
-      if (stagnant >= numerics::stagnant_rounds) {
+      halving = std::max(halving, left);
+      if (left < halving / 2) {
+        halving = left;
+        stagnant = 0;
+      } else if (++stagnant >= numerics::stagnant_rounds) {
         if (flattened(sums.all)) return Outcome::unbounded;
         settled = true;
       }
     }
     if (settled) {
       full_steps_ = idle = stagnant = 0;
-      least = std::numeric_limits<double>::infinity();
+      halving = 0;
       if (!release()) return run_away() ? Outcome::unbounded : in_doubt_ ? Outcome::undecided : Outcome::solved;
       if (++releases == numerics::single_releases) release_as_before();
       continue;

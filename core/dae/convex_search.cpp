@@ -90,7 +90,7 @@ ConvexNetwork::Outcome ConvexNetwork::search(const std::vector<double>& d, bool 
     }
   };
   // Where the round-off of large forces hides the slope, Newton's step still balances the nodes with small ones.
-  if ((linear || !gains) && breaks.empty()) {
+  if ((linear && breaks.empty()) || (!gains && (breaks.empty() || breaks.front().step > 1))) {
     move(1);
     ++full_steps_;
     return Outcome::solved;

@@ -209,7 +209,7 @@ void StickForces::solve(double t, const std::vector<double>& others, std::vector
       for (const std::size_t k : shared.sliders) force[k] = std::numeric_limits<double>::quiet_NaN();
       continue;
     }
-    // What accelerates the nodes together has been found with their accelerations. Its error is no load of these forces.
+    // The load that accelerates all these nodes together is 0 but for the error of their accelerations, which no sticking force can hold.
     if (shared.accelerated.cols() > 0) {
       Eigen::Map<Eigen::VectorXd> load(shared.load.data(), shared.accelerated.rows());
       load -= shared.accelerated * (shared.accelerated.transpose() * load);

@@ -8,19 +8,27 @@
 #include "core/base/disjoint_sets.hpp"
 #include "core/base/index.hpp"
 #include "core/base/numerics.hpp"
+#include "core/network/rigid_links.hpp"
 
 namespace rheonet {
 
 GlobalErrorModel::GlobalErrorModel(const Network& network, const Structure& structure, double length)
     : network_(network), structure_(structure), length_(length) {
-  mode_changes_ = !network.sliders.empty() || !network.blocks.sensors.empty();
+  mode_changes_ = !std::all_of(network.sliders.begin(), network.sliders.end(), is_rigid_link) || !network.blocks.sensors.empty();
   DisjointSets sets(structure.kind.size());
-  const auto join = [&](const Branch& b) {
-    if (structure.kind[at(b.a)] != Kind::known && structure.kind[at(b.b)] != Kind::known) sets.join(b.a, b.b);
+  const auto join = [&](NodeId a, NodeId b) {
+    if (structure.kind[at(a)] != Kind::known && structure.kind[at(b)] != Kind::known) sets.join(a, b);
   };
-  for (const Branch& b : structure.deflections) join(b);
-  for (const Branch& b : structure.rates) join(b);
-  for (const Branch& b : structure.sliders) join(b);
+  for (const Branch& b : structure.deflections) join(b.a, b.b);
+  for (const Branch& b : structure.rates) join(b.a, b.b);
+  for (const Branch& b : structure.sliders) join(b.a, b.b);
+  for (std::size_t n = 0; n < structure.kind.size(); ++n) join(static_cast<NodeId>(n), structure.rigid[n]);
+  // What one node of a transmission dissipates, the others have no longer.
+  for (const Network::Train& train : network.trains) {
+    for (const NodeId a : train.node) {
+      for (const NodeId b : train.node) join(a, b);
+    }
+  }
   part_of_node_.assign(structure.kind.size(), -1);
   std::vector<int> number(structure.kind.size(), -1);
   movers_.reserve(network.masses.size());

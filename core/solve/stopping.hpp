@@ -30,7 +30,7 @@ class Stopping {
   void find_geared(const Structure& structure);
   double carried_noise(std::size_t rate, double local) const;
 
-  /// A node of transmissions: those that they join are a group. Times `scale`, the velocities in it compare.
+  /// A node of a transmission, or joined to one. All that transmissions join are a group; |velocity| times `scale` is of one size in it.
   struct Geared { std::size_t group; double scale; };
 
   const Network& network_;
