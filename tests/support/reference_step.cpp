@@ -16,6 +16,8 @@ constexpr int corrections = 200, stiffen_after = 8;
 constexpr int newton_steps = 200;
 // Losses follow the force that a transmission passes on, to this fraction of the largest force.
 constexpr double followed = 1e-9;
+// What the corrections leave of a velocity at rest, as a part of what the forces could have caused.
+constexpr double left_of_rest = 1e-13;
 constexpr int rounds_of_slips = 20, rounds_of_losses = 100;
 // A balance is found to this part of the forces that meet there: some rounding errors.
 constexpr double balanced = 3e-14;
@@ -364,7 +366,8 @@ bool ReferenceNetwork::step(const Input& input) {
   }
   // With gears all may be at rest all the time, in forces that none of them determines: their impulse tells what would be a motion.
   impulse_ += largest_force_ * input.h;
-  still_ = little_stretch * (gears_.empty() ? typical_step_ : std::max(typical_step_, impulse_ / total_mass_ * input.h));
+  still_ = little_stretch * typical_step_;
+  if (!gears_.empty()) still_ = std::max(still_, left_of_rest * impulse_ / total_mass_ * input.h);
   note_ambiguity();
   std::fill(nodal_.begin(), nodal_.end(), 0.0);
   for (std::size_t k = 0; k < bundles_.size(); ++k) {
