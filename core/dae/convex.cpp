@@ -307,7 +307,7 @@ ConvexNetwork::Outcome ConvexNetwork::minimise() {
   Sums sums;
   std::vector<double> d;
   int idle = 0;  // rounds in a row without gain
-  double halving = 0;  // the imbalance that is to be halved
+  double least = std::numeric_limits<double>::infinity();  // descent since the last release
   int stagnant = 0;
   bool looked_again = false;  // since the last step
   int releases = 0;
@@ -349,11 +349,9 @@ ConvexNetwork::Outcome ConvexNetwork::minimise() {
       }
       settled = settled || (!(descent < 0) && answer_balances(sums));
       idle = -descent <= roundoff_along(d, sums) ? idle + 1 : 0;
-      double left = 0;
-      for (double g : sums.all) left = std::max(left, std::abs(g));
-      halving = std::max(halving, left);
-      if (left < halving / 2) {
-        halving = left;
+      // An imbalance may grow on the way, and a slow search is none that stands still: what Newton's step would gain tells.
+      if (std::abs(descent) < least / 2) {
+        least = std::abs(descent);
         stagnant = 0;
       } else if (++stagnant >= numerics::stagnant_rounds) {
         if (flattened(sums.all)) return Outcome::unbounded;
@@ -362,7 +360,7 @@ ConvexNetwork::Outcome ConvexNetwork::minimise() {
     }
     if (settled) {
       full_steps_ = idle = stagnant = 0;
-      halving = 0;
+      least = std::numeric_limits<double>::infinity();
       if (!release()) return run_away() ? Outcome::unbounded : in_doubt_ ? Outcome::undecided : Outcome::solved;
       if (++releases == numerics::single_releases) release_as_before();
       continue;
