@@ -62,6 +62,14 @@ std::string wrong_energy(const Scene& scene, const Summary& whole) {
   return "";
 }
 
+/// The force of a slider that slips with this velocity.
+double sliding_force(const SceneElement& slider, const SliderBounds& bounds, double velocity) {
+  const double speed = parameter(slider, "stribeck");
+  if (std::isnan(speed)) return bounds.coulomb;
+  const double Fc = parameter(slider, "coulomb"), shape = parameter(slider, "shape");
+  return Fc + (bounds.breakaway - Fc) * std::exp(-std::pow(std::abs(velocity) / speed, shape));
+}
+
 /// Judges the bounds of friction. Returns "" or the place of a violation.
 std::string wrong_friction(const Scene& scene, const RunTable& rows) {
   // In a moving frame, relative velocities of 0 are differences of two velocities, and have their round-off.
@@ -80,12 +88,13 @@ std::string wrong_friction(const Scene& scene, const RunTable& rows) {
     const std::vector<double>&force = rows[e.name + ".force"], &velocity = rows[e.name + ".velocity"];
     for (std::size_t i = 0; i < force.size(); ++i) {
       const double f = force[i], w = velocity[i];
-      const auto [Fc, Fs] = bounds(rows.time()[i]);
+      const SliderBounds now = bounds(rows.time()[i]);
       const bool slips = type == "slider" && std::abs(w) > ulps * fastest;
+      const double Fc = slips ? sliding_force(e, now, w) : now.coulomb, Fs = now.breakaway;
       // Bounds that vary are computed once here and once there, and instants of sticking are as exact as the accuracy.
-      const double varies = e.signals.empty() ? 0 : 1e-12 * Fs;
+      const double varies = e.signals.empty() && Fc == now.coulomb ? 0 : 1e-12 * Fs;
       const double rounding = type == "cfm" ? of_accuracy * scene.accuracy * Fc : e.signals.empty() ? 0 : of_accuracy * scene.accuracy * std::max(1.0, Fs);
-      // A slipping slider has its Coulomb force, to the round-off of a spring that carries the same force.
+      // A slipping slider has its sliding force, to the round-off of a spring that carries the same force.
       const bool slides = Fc == 0 ? f == 0 : f * w > 0 && std::abs(f) <= Fc * (1 + ulps) + varies && std::abs(f) >= Fc * (1 - slip_rounding) - varies;
       // A slider about to slip may exceed its bound by the round-off of a balance: its force follows from its neighbours.
       if (slips ? slides : std::abs(f) <= Fs * (1 + slip_rounding) + rounding) continue;
