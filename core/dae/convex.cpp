@@ -258,8 +258,8 @@ bool ConvexNetwork::stick_where_idle() {
   return idle;
 }
 
-/// At no free cluster is a force left over beyond round-off, of forces and of the values themselves: the check of an answer, as steps
-/// that gain nothing say less.
+/// Whether the forces at all free clusters sum to 0, but for the round-off of forces and values, and a negligible share of the largest force.
+/// That a step gains nothing says less: the gain of small forces is hidden by that of large ones.
 bool ConvexNetwork::answer_balances(Sums& sums) const {
   if (balanced(sums)) return true;
   const double negligible = numerics::answer_imbalance * largest_force();
@@ -307,7 +307,7 @@ ConvexNetwork::Outcome ConvexNetwork::minimise() {
   Sums sums;
   std::vector<double> d;
   int idle = 0;  // rounds in a row without gain
-  double least = std::numeric_limits<double>::infinity();  // descent since the last release
+  double least = std::numeric_limits<double>::infinity();  // least magnitude of the descent since the last release
   int stagnant = 0;
   bool looked_again = false;  // since the last step
   int releases = 0;
@@ -349,7 +349,7 @@ ConvexNetwork::Outcome ConvexNetwork::minimise() {
       }
       settled = settled || (!(descent < 0) && answer_balances(sums));
       idle = -descent <= roundoff_along(d, sums) ? idle + 1 : 0;
-      // An imbalance may grow on the way, and a slow search is none that stands still: what Newton's step would gain tells.
+      // The imbalance is no measure of progress: it may grow on the way. What Newton's step would gain falls.
       if (std::abs(descent) < least / 2) {
         least = std::abs(descent);
         stagnant = 0;

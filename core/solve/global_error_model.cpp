@@ -23,7 +23,7 @@ GlobalErrorModel::GlobalErrorModel(const Network& network, const Structure& stru
   for (const Branch& b : structure.rates) join(b.a, b.b);
   for (const Branch& b : structure.sliders) join(b.a, b.b);
   for (std::size_t n = 0; n < structure.kind.size(); ++n) join(static_cast<NodeId>(n), structure.rigid[n]);
-  // What one node of a transmission dissipates, the others have no longer.
+  // The nodes of a transmission share their energy: friction at one of them damps all.
   for (const Network::Train& train : network.trains) {
     for (const NodeId a : train.node) {
       for (const NodeId b : train.node) join(a, b);

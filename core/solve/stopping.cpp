@@ -16,8 +16,6 @@ bool moved(const Network::Train& train, std::size_t k) { return train.node[k] !=
 
 }  // namespace
 
-Stopping::Stopping(const Network& network) : network_(network), carried_seen_(network.rates.size(), 0) {}
-
 void Stopping::attach(const Dae& dae) {
   limit_.clear();
   chains_.clear();

@@ -15,7 +15,7 @@ namespace rheonet {
 class Stopping {
  public:
   /// The network must outlive this.
-  explicit Stopping(const Network& network);
+  explicit Stopping(const Network& network) : network_(network), carried_seen_(network.rates.size(), 0) {}
   /// Switches to these equations.
   void attach(const Dae& dae);
   /// Finds the limits in this state. `local`: tolerance of a step, relative to scales.
@@ -27,6 +27,7 @@ class Stopping {
   double unfelt(int rate, const Magnitudes& seen, double local) const;
 
  private:
+  /// Groups the nodes that transmissions join, with their relative scales.
   void find_geared(const Structure& structure);
   double carried_noise(std::size_t rate, double local) const;
 

@@ -1,4 +1,4 @@
-// Nodes that a gear with losses locks to each other, and that another gear sets in motion: their forces balance but for what accelerates all of them.
+// A gear with losses locks its nodes to each other. Another gear sets them in motion as one body.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 

@@ -100,8 +100,8 @@ double ReferenceLaw::relaxing(double step, double h, double s) const {
 }
 
 ReferenceLaw::Value ReferenceLaw::stribeck(double step, double h) const {
-  const double speed = std::abs(step) / h / stribeck_, power = std::pow(speed, shape_), above = (breakaway_ - sliding_) * std::exp(-power);
-  return {sign_of(step) * (sliding_ + above), speed > 0 ? -above * shape_ * power / std::abs(step) : 0};
+  const double speed = std::abs(step) / h, above = StribeckCurve{sliding_, breakaway_, stribeck_, shape_}.above(speed);
+  return {sign_of(step) * (sliding_ + above), speed > 0 ? -above * shape_ * std::pow(speed / stribeck_, shape_) / std::abs(step) : 0};
 }
 
 ReferenceLaw::Value ReferenceLaw::contact(double step, double h) const {

@@ -112,7 +112,7 @@ class ReferenceNetwork {
   double typical_step_ = 0;             ///< At any balance found in this step.
   double total_mass_ = 0;               ///< [kg]
   double impulse_ = 0;                  ///< Sum over all steps so far of the largest force times the step [N s].
-  double still_ = 0;                    ///< What moves less in this step is at rest.
+  double still_ = 0;                    ///< Bundles with smaller displacements in this step are at rest.
   double rounding_ = 1e-300;            ///< Round-off of forces that are computed as a fraction of a Coulomb force [N].
   bool ambiguous_ = false, forked_ = false;
 };

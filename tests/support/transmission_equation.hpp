@@ -16,8 +16,8 @@ struct TransmissionEquation {
   double bearing = 0;                          ///< Friction, seen at the first node [N].
 
   bool lossy() const { return efficiency != 1 || efficiency_back != 1 || bearing != 0; }
-  /// The friction at the first node while it turns one way or the other, for a force `passed` on to the second node:
-  /// f = (passed +- bearing)/efficiency while the first node drives, efficiency_back (passed +- bearing) while the second one does.
+  /// The friction at the first node, for a force `passed` on to the second node: `high` while it turns forwards, `low` while backwards.
+  /// It is f - passed, where f is (passed +- bearing)/efficiency while the first node drives, else efficiency_back (passed +- bearing).
   struct Range { double low, high; };
   Range friction(double passed) const;
 };

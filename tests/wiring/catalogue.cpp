@@ -41,84 +41,44 @@ class Maker {
   std::vector<Wiring> all() {
     for (const Shape& shape : shapes()) every_choice(shape);
     Random random(seed);
-    for (int k = 0; k < random_trees; ++k) {
-      Wiring w;
-      w.tree = random_tree(random, 4 + k % 5);
-      w.graph = wired(*w.tree);
-      w.types = random_types(random, w.graph.branches.size());
-      w.name = "tree " + described(*w.tree, w.types);
-      add_random(std::move(w), random, k);
-    }
-    for (int k = 0; k < random_graphs; ++k) {
-      Wiring w;
-      w.graph = random_graph(random);
-      w.types = random_types(random, w.graph.branches.size());
-      w.name = "graph " + described(w.graph, w.types);
-      add_random(std::move(w), random, k);
-    }
+    for (int k = 0; k < random_trees; ++k) add_random("tree", of_tree(random, 4 + k % 5), random, k);
+    for (int k = 0; k < random_graphs; ++k) add_random("graph", of_graph(random), random, k);
     for (int k = 0; k < brake_trees + freewheel_trees; ++k) {
-      const std::string special = k < brake_trees ? "brake" : "freewheel";
-      Wiring w;
-      w.tree = random_tree(random, 2 + k % 5);
-      w.graph = wired(*w.tree);
-      w.types = random_types(random, w.graph.branches.size());
-      w.types[static_cast<std::size_t>(random.below(static_cast<int>(w.types.size())))] = special;
-      w.name = special + " " + described(*w.tree, w.types);
-      add_random(std::move(w), random, k);
+      const char* special = k < brake_trees ? "brake" : "freewheel";
+      Wiring w = of_tree(random, 2 + k % 5);
+      any_of(w, random) = special;
+      add_random(special, std::move(w), random, k);
     }
     for (int k = 0; k < stop_trees; ++k) {
-      Wiring w;
-      w.tree = random_tree(random, 2 + k % 5);
-      w.graph = wired(*w.tree);
-      w.types = random_types(random, w.graph.branches.size());
-      for (int stops = 1 + k % 2; stops > 0; --stops) w.types[static_cast<std::size_t>(random.below(static_cast<int>(w.types.size())))] = "stop";
-      w.name = "stop " + described(*w.tree, w.types);
-      add_heavy(std::move(w), random);
+      Wiring w = of_tree(random, 2 + k % 5);
+      replace(w, 1 + k % 2, "stop", random);
+      add_heavy("stop", std::move(w), random);
     }
     for (int k = 0; k < gear_graphs; ++k) {
-      Wiring w;
-      w.graph = random_graph(random);
-      w.types = random_types(random, w.graph.branches.size());
-      // In the smallest graphs two gears could fix all nodes.
-      for (int gears = w.graph.nodes > 5 ? 1 + k % 2 : 1; gears > 0; --gears) w.types[static_cast<std::size_t>(random.below(static_cast<int>(w.types.size())))] = "gear";
-      if (k % 4 == 0) w.types[static_cast<std::size_t>(random.below(static_cast<int>(w.types.size())))] = "stop";
-      w.name = "gear " + described(w.graph, w.types);
-      add_heavy(std::move(w), random);
+      Wiring w = of_graph(random);
+      replace(w, gears_of(w, k), "gear", random);
+      if (k % 4 == 0) any_of(w, random) = "stop";
+      add_heavy("gear", std::move(w), random);
     }
     for (int k = 0; k < stribeck_trees; ++k) {
-      Wiring w;
-      w.tree = random_tree(random, 2 + k % 5);
-      w.graph = wired(*w.tree);
-      w.types = random_types(random, w.graph.branches.size());
-      for (int sliders = 1 + k % 2; sliders > 0; --sliders) any_of(w.types, random) = "stribeck";
-      w.name = "stribeck " + described(*w.tree, w.types);
-      add_heavy(std::move(w), random);
+      Wiring w = of_tree(random, 2 + k % 5);
+      replace(w, 1 + k % 2, "stribeck", random);
+      add_heavy("stribeck", std::move(w), random);
     }
     for (int k = 0; k < planetary_graphs; ++k) {
-      Wiring w;
-      w.graph = random_graph(random);
-      w.types = random_types(random, w.graph.branches.size());
-      for (int gears = w.graph.nodes > 5 ? 1 + k % 2 : 1; gears > 0; --gears) any_of(w.types, random) = "planetary";
-      w.name = "planetary " + described(w.graph, w.types);
+      Wiring w = of_graph(random);
+      replace(w, gears_of(w, k), "planetary", random);
       w.rotating.assign(node_count(w.graph), 1);
-      add_heavy(std::move(w), random);
+      add_heavy("planetary", std::move(w), random);
     }
-    for (int k = 0; k < mixed_graphs; ++k) {
-      Wiring w = of_two_domains(random);
-      w.name = "domains " + described(w.graph, w.types);
-      add_heavy(std::move(w), random);
-    }
+    for (int k = 0; k < mixed_graphs; ++k) add_heavy("domains", of_two_domains(random), random);
     for (int k = 0; k < lossy_graphs; ++k) {
-      Wiring w;
-      w.graph = random_graph(random);
-      w.types = random_types(random, w.graph.branches.size());
+      Wiring w = of_graph(random);
       // Beside the friction of a gear at rest the laws would leave open how a cfm goes on.
       std::replace(w.types.begin(), w.types.end(), std::string("cfm"), std::string("vfm"));
-      for (int gears = w.graph.nodes > 5 ? 1 + k % 2 : 1; gears > 0; --gears) any_of(w.types, random) = "lossy";
-      w.name = "losses " + described(w.graph, w.types);
+      replace(w, gears_of(w, k), "lossy", random);
       // An impulse passes gears without losses: the driven node must not jump.
-      std::vector<char> masses(node_count(w.graph), 1);
-      add(std::move(w), std::move(masses), Drive::force_on_mass);
+      add_heavy("losses", std::move(w), Drive::force_on_mass);
     }
     return std::move(wirings_);
   }
@@ -148,16 +108,32 @@ class Maker {
     }
   }
 
-  static std::string& any_of(std::vector<std::string>& types, Random& random) {
-    return types[static_cast<std::size_t>(random.below(static_cast<int>(types.size())))];
+  static Wiring of_tree(Random& random, int leaves) {
+    Wiring w;
+    w.tree = random_tree(random, leaves);
+    w.graph = wired(*w.tree);
+    w.types = random_types(random, w.graph.branches.size());
+    return w;
   }
+  static Wiring of_graph(Random& random) {
+    Wiring w;
+    w.graph = random_graph(random);
+    w.types = random_types(random, w.graph.branches.size());
+    return w;
+  }
+  static std::string& any_of(Wiring& w, Random& random) {
+    return w.types[static_cast<std::size_t>(random.below(static_cast<int>(w.types.size())))];
+  }
+  static void replace(Wiring& w, int count, const char* type, Random& random) {
+    for (; count > 0; --count) any_of(w, random) = type;
+  }
+  /// One gear or two. In the smallest graphs two could fix all nodes.
+  static int gears_of(const Wiring& w, int k) { return w.graph.nodes > 5 ? 1 + k % 2 : 1; }
 
   /// A random graph of which some nodes turn. One or two branches join them to those that do not.
   static Wiring of_two_domains(Random& random) {
     for (;;) {
-      Wiring w;
-      w.graph = random_graph(random);
-      w.types = random_types(random, w.graph.branches.size());
+      Wiring w = of_graph(random);
       w.rotating.assign(node_count(w.graph), 0);
       for (std::size_t n = 2; n < w.rotating.size(); ++n) w.rotating[n] = random.below(2) == 0;
       std::set<std::pair<int, int>> joints;
@@ -174,19 +150,25 @@ class Maker {
     }
   }
 
-  void add_random(Wiring w, Random& random, int k) {
+  void add_random(const std::string& kind, Wiring w, Random& random, int k) {
     std::vector<char> masses(node_count(w.graph), 0);
     // A third of the scenes without masses, a third with a mass at each node, a third with some.
     for (char& m : masses) m = k % 3 == 2 ? random.below(2) == 0 : k % 3 == 1;
+    name(w, kind);
     add(std::move(w), std::move(masses), Drive(random.below(4)));
   }
 
   /// Adds a wiring with a mass at each node.
-  void add_heavy(Wiring w, Random& random) {
+  void add_heavy(const std::string& kind, Wiring w, Random& random) {
     constexpr std::array<Drive, 3> drives{Drive::velocity, Drive::position, Drive::force_on_mass};
-    std::vector<char> masses(node_count(w.graph), 1);
-    add(std::move(w), std::move(masses), drives[static_cast<std::size_t>(random.below(3))]);
+    add_heavy(kind, std::move(w), drives[static_cast<std::size_t>(random.below(3))]);
   }
+  void add_heavy(const std::string& kind, Wiring w, Drive drive) {
+    std::vector<char> masses(node_count(w.graph), 1);
+    name(w, kind);
+    add(std::move(w), std::move(masses), drive);
+  }
+  static void name(Wiring& w, const std::string& kind) { w.name = kind + " " + (w.tree ? described(*w.tree, w.types) : described(w.graph, w.types)); }
 
   static std::size_t node_count(const Graph& graph) { return static_cast<std::size_t>(graph.nodes); }
 

@@ -67,7 +67,7 @@ double sliding_force(const SceneElement& slider, const SliderBounds& bounds, dou
   const double speed = parameter(slider, "stribeck");
   if (std::isnan(speed)) return bounds.coulomb;
   const double Fc = parameter(slider, "coulomb"), shape = parameter(slider, "shape");
-  return Fc + (bounds.breakaway - Fc) * std::exp(-std::pow(std::abs(velocity) / speed, shape));
+  return Fc + StribeckCurve{Fc, bounds.breakaway, speed, shape}.above(std::abs(velocity));
 }
 
 /// Judges the bounds of friction. Returns "" or the place of a violation.

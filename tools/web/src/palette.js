@@ -3,7 +3,7 @@ import { groupNames } from './catalogue.js';
 import { element } from './dom.js';
 import { t } from './messages.js';
 
-// What the letters of an abbreviation stand for, if the text about it begins with these words.
+// The words whose first letters are the type, as "solid friction model" of sfm, if the text about it begins with them; else null.
 function meaningOf(type, about) {
   const name = about.split(':')[0];
   return type.length > 1 && name.split(' ').map((word) => word[0]).join('') === type ? name : null;

@@ -107,7 +107,7 @@ export function eventsOf(data) {
   })));
   const most = 200;
   const times = items.map(([time]) => time / unit.factor);
-  // As many digits as tell an event from those before and after it.
+  // The time between an event and its neighbours: its time is written to as many digits as that needs.
   const apart = (k) => Math.min(Math.abs(times[k]), ...[times[k] - times[k - 1], times[k + 1] - times[k]].filter((between) => between > 0));
   const rows = items.slice(0, most).map(([, name, what, direction], k) => [spaced(times[k], apart(k), 6), name, what, String(direction)]);
   host.append(element('details', {}, element('summary', {}, t('All {count} events', { count: grouped(items.length + left_out) })),
