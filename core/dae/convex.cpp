@@ -349,7 +349,7 @@ ConvexNetwork::Outcome ConvexNetwork::minimise() {
       }
       settled = settled || (!(descent < 0) && answer_balances(sums));
       idle = -descent <= roundoff_along(d, sums) ? idle + 1 : 0;
-      // The imbalance is no measure of progress: it may grow on the way. What Newton's step would gain falls.
+      // Progress is measured by what Newton's step would gain: the imbalance may grow on the way.
       if (std::abs(descent) < least / 2) {
         least = std::abs(descent);
         stagnant = 0;

@@ -68,7 +68,7 @@ class ConvexNetwork {
     unbounded,  ///< No x balances the applied forces, however large.
     undecided,  ///< round-off prevents a decision.
   };
-  /// The answer is checked: every node balances, to round-off of forces and values and `numerics::answer_imbalance` of the largest force. Else it is `undecided`.
+  /// The outcome is `solved` only if the forces balance at every node, to round-off of forces and values and `numerics::answer_imbalance` of the largest force.
   Outcome solve();
 
   double value(int node) const { return base_[at(node)] + u_[at(node)]; }
