@@ -33,6 +33,13 @@ inline constexpr Refusal jammed{
     "Gears alone make a loop, and no velocity but 0 fits all of their ratios.",
     {"their ratios contradict each other", "it could only repeat or contradict that"}};
 
+/// Gears whose losses grow with their own forces.
+inline constexpr Refusal seized{
+    "losses of gears that no motion fits",
+    "Where the losses of a gear grow faster with its force than the force that is left, it has two motions or none. From one to the other leads "
+    "only an impact, which is no part of the laws.",
+    {"no motion was found in which the losses", "no motion was found in which the losses"}};
+
 bool says(const std::string& message, const Refusal& refusal);
 
 /// The time in a message [s]; NaN if there is none.
