@@ -44,6 +44,7 @@ struct Integrator::Implementation {
   /// IDA counts time from the last restart, so that the round-off of steps and events is relative to the time since then.
   TimePoint begin, stop;
   double time = 0, previous = 0;  ///< from `begin` on [s]
+  double rounded_time = 0, rounded_previous = 0;  ///< the same as times, which are read many times a step [s]
   /// IDA sums its step sizes with round-off. Many equal steps that are short against the time reached drift by up to half an
   /// ulp of time each. `lost` is the sum of these errors, and true time is IDA's time plus `lost` [s].
   double lost = 0;
@@ -114,6 +115,10 @@ struct Integrator::Implementation {
 
   double length() const { return stop.since(begin); }
   TimePoint point(double since) const { return since == length() ? stop : begin + since; }
+  void round_times() {
+    rounded_time = point(time).t;
+    rounded_previous = point(previous).t;
+  }
   /// Time from `begin` to t, clamped to the last step because t is rounded [s].
   double since_begin(double t) const { return std::clamp(TimePoint(t).since(begin), previous, time); }
   /// Gives the equations the exact time that the returned double stands for, before they are evaluated there.
@@ -206,6 +211,28 @@ struct Integrator::Implementation {
     return event ? Outcome::event : end == length() ? Outcome::stop : Outcome::step;
   }
 
+  Outcome step() {
+    previous = time;
+    if (on_arc) return step_along_arc();
+    double ida_time = time;
+    const int flag = IDASolve(ida, length(), &ida_time, ny, np, IDA_ONE_STEP);
+    if (flag == IDA_SUCCESS) keep_time();
+    if (flag < 0) refine(time);
+    if (flag >= 0) {
+      rise();
+      time = flag == IDA_TSTOP_RETURN ? length() : ida_time + lost;
+      if (meets_event()) return Outcome::event;
+    }
+    switch (flag) {
+      case IDA_SUCCESS:
+        return Outcome::step;
+      case IDA_TSTOP_RETURN:
+        return Outcome::stop;
+      default:
+        return newton.singular() ? Outcome::singular : Outcome::stuck;
+    }
+  }
+
   Failures failures() const {
     Failures f;
     if (on_arc) return f;
@@ -267,6 +294,7 @@ void Integrator::restart(TimePoint t, const std::vector<double>& y, const std::v
   s.begin = t;
   s.stop = stop;
   s.time = s.previous = 0;
+  s.round_times();
   s.lost = s.lost_by_step = s.reached = 0;
   s.arc_steps = 0;
   s.on_arc = std::exchange(s.arc_begins, false);
@@ -285,31 +313,15 @@ void Integrator::restart(TimePoint t, const std::vector<double>& y, const std::v
 void Integrator::go_on(TimePoint stop) {
   Implementation& s = *impl_;
   s.stop = stop;
+  s.round_times();
   s.keep_time();
   if (!s.finder.none()) s.evaluate(s.finder.at_begin());
 }
 
 Integrator::Outcome Integrator::step() {
-  Implementation& s = *impl_;
-  s.previous = s.time;
-  if (s.on_arc) return s.step_along_arc();
-  double reached = s.time;
-  const int flag = IDASolve(s.ida, s.length(), &reached, s.ny, s.np, IDA_ONE_STEP);
-  if (flag == IDA_SUCCESS) s.keep_time();
-  if (flag < 0) s.refine(s.time);
-  if (flag >= 0) {
-    s.rise();
-    s.time = flag == IDA_TSTOP_RETURN ? s.length() : reached + s.lost;
-    if (s.meets_event()) return Outcome::event;
-  }
-  switch (flag) {
-    case IDA_SUCCESS:
-      return Outcome::step;
-    case IDA_TSTOP_RETURN:
-      return Outcome::stop;
-    default:
-      return s.newton.singular() ? Outcome::singular : Outcome::stuck;
-  }
+  const Outcome outcome = impl_->step();
+  impl_->round_times();
+  return outcome;
 }
 
 Integrator::Statistics& Integrator::Statistics::operator+=(const Statistics& other) {
@@ -331,12 +343,13 @@ void Integrator::limit_step(double longest) {
 void Integrator::cut(double t, int which) {
   Implementation& s = *impl_;
   s.go_to(s.since_begin(t));
+  s.round_times();
   s.finder.take(which);
 }
 
 bool Integrator::exact() const { return impl_->on_arc; }
-double Integrator::time() const { return impl_->point(impl_->time).t; }
-double Integrator::previous_time() const { return impl_->point(impl_->previous).t; }
+double Integrator::time() const { return impl_->rounded_time; }
+double Integrator::previous_time() const { return impl_->rounded_previous; }
 const std::vector<double>& Integrator::y() const { return impl_->y; }
 const std::vector<double>& Integrator::yp() const { return impl_->yp; }
 const std::vector<int>& Integrator::events() const { return impl_->finder.fired(); }
