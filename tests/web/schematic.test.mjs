@@ -213,12 +213,12 @@ test('what falls on something moves until it touches, and on with it', async () 
   await close();
 });
 
-test('forces are arrows to a scale that is shown, and energy is bars', async () => {
+test('forces and flows of power are arrows to scales that are shown, and energy is bars', async () => {
   const { page, close } = await open('#file=stick-slip.toml');
   await page.locator('[data-shows="forces"]').check();
-  const arrow = () => page.locator('.force-arrows path').evaluateAll((all) => all.map((path) => Number(/h(-?[\d.]+)/.exec(path.getAttribute('d'))?.[1] ?? 0)));
-  const bar = page.locator('.motion-legend .scale-bar.arrow');
-  assert.equal(await page.locator('.motion-legend .key', { has: page.locator('.scale-bar.arrow') }).textContent(), '2\u00a0N');
+  const arrow = (kind = 'forces') => page.locator(`.${kind}-arrows path`).evaluateAll((all) => all.map((path) => Number(/h(-?[\d.]+)/.exec(path.getAttribute('d'))?.[1] ?? 0)));
+  const bar = page.locator('.motion-legend .scale-bar.forces-arrow');
+  assert.equal(await page.locator('.motion-legend .key', { has: page.locator('.scale-bar.forces-arrow') }).textContent(), '2\u00a0N');
   const px = (await bar.evaluate((node) => Number.parseFloat(node.style.width))) / 2;
   await at(page, 0.125); // the spring pulls with 1 N, to both sides
   const found = await arrow();
@@ -227,8 +227,15 @@ test('forces are arrows to a scale that is shown, and energy is bars', async () 
   // The work of the hand so far is the energy of the spring: (1 N)^2/(2 k).
   const [, supplied, stored, dissipated] = /supplied([\d.]+) mJstored([\d.]+) mJdissipated([\d.]+) mJ/.exec(await page.locator('.energy-bars').textContent()).map(Number);
   assert.ok(Math.abs(supplied - 5) < 0.25 && Math.abs(stored - 5) < 0.25 && dissipated < 0.01, `${supplied} ${stored} ${dissipated}`);
+  // The hand moves with 10 mm/s: 10 mW flow from it into the spring, and nothing out of it, because the block rests.
+  const key = page.locator('.motion-legend .key', { has: page.locator('.scale-bar.energy-arrow') });
+  const [, shown, milli] = /^([\d.]+)\u00a0(m?)W$/.exec(await key.textContent()) ?? assert.fail(await key.textContent());
+  const size = Number(shown) * (milli ? 1 : 1e3); // mW
+  const width = await key.locator('.scale-bar').evaluate((node) => Number.parseFloat(node.style.width));
+  const flows = (await arrow('energy')).filter((length) => length !== 0);
+  assert.ok(flows.length === 2 && flows.every((length) => Math.abs(length - (10 * width) / size) < 0.1), `${flows}, ${width} px for ${size} mW`);
   await page.locator('[data-shows="forces"]').uncheck();
-  assert.equal(await page.locator('.force-arrows').isVisible(), false);
+  assert.equal(await page.locator('.forces-arrows').isVisible(), false);
   await close();
 });
 

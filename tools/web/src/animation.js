@@ -1,7 +1,7 @@
 // Animation of a run in the schematic, with play, pause, speed and a time slider.
+import { Arrows, forcesOf, powersOf } from './arrows.js';
 import { element } from './dom.js';
 import { EnergyBars } from './energy-bars.js';
-import { ForceArrows } from './force-arrows.js';
 import { Labels } from './labels.js';
 import { farthestShift, MotionScale, roundBelow } from './motion-scale.js';
 import { t } from './messages.js';
@@ -62,10 +62,10 @@ export class Animation {
     if (this.svg !== svg) this.take(svg);
     this.bounds = this.boundsOf(data.scene.elements);
     this.wires.forEach(({ node, name }) => node.classList.toggle('runs', this.scale.runs(name)));
-    this.forces?.host.remove();
-    this.forces = new ForceArrows(svg, this.parts, data);
+    this.arrows?.forEach(({ host }) => host.remove());
+    this.arrows = [new Arrows(svg, 'forces', forcesOf(this.parts, data)), new Arrows(svg, 'energy', powersOf(this.parts, data))];
     this.bars.attach(data);
-    this.toggles.forces.hidden = !this.forces.scales.size;
+    this.toggles.forces.hidden = !this.arrows[0].scales.size;
     this.toggles.energy.hidden = !this.bars.energy;
     this.showSpeeds();
     this.showLegend();
@@ -142,8 +142,8 @@ export class Animation {
     if (scale.drift.size) parts.push(element('span', { class: 'key' }, element('span', { class: 'swatch running' }), t('runs on beyond the drawing')));
     if (this.parts.some(({ slides }) => slides))
       for (const [kind, text] of [['stick', t('sticks')], ['slip', t('slips')]]) parts.push(element('span', { class: 'key' }, element('span', { class: `swatch ${kind}` }), text));
-    this.arrowKeys = this.forces.legend.map(({ px, of, unit }) => bar(px, `${withUnit(of, unit, 3)}`, 'arrow'));
-    this.legend.replaceChildren(...parts, ...this.arrowKeys);
+    this.arrowKeys = this.arrows.flatMap(({ legend }) => legend).map(({ px, of, unit, kind }) => ({ kind, key: bar(px, withUnit(of, unit, 3), `arrow ${kind}-arrow`) }));
+    this.legend.replaceChildren(...parts, ...this.arrowKeys.map(({ key }) => key));
   }
 
   draw() {
@@ -161,9 +161,11 @@ export class Animation {
     this.svg.closest('.drawing')?.classList.toggle('moved', this.place > 0);
     this.turning.show((node) => scale.angle(node, i));
     this.labels.place(shift);
-    this.forces.host.style.display = this.shows('forces') ? '' : 'none';
-    this.arrowKeys.forEach((key) => (key.hidden = !this.shows('forces')));
-    if (this.shows('forces')) this.forces.show(i, shift);
+    for (const arrows of this.arrows) {
+      arrows.host.style.display = this.shows(arrows.kind) ? '' : 'none';
+      if (this.shows(arrows.kind)) arrows.show(i, shift);
+    }
+    this.arrowKeys.forEach(({ kind, key }) => (key.hidden = !this.shows(kind)));
     this.energy.hidden = !this.shows('energy');
     if (!this.energy.hidden) this.bars.show(time);
     this.scrub.value = String(Math.round(this.place * 1000));
@@ -178,8 +180,8 @@ export class Animation {
     if (!this.parts) return;
     const { start, stop } = this.data.span;
     this.place = Math.min(1, Math.max(0, (time - start) / (stop - start)));
-    this.toggles.forces.firstChild.checked = leader.shows('forces');
-    this.forces.scales = leader.forces.scales;
+    for (const [name, toggle] of Object.entries(this.toggles)) toggle.firstChild.checked = leader.shows(name);
+    this.arrows.forEach((arrows, k) => (arrows.scales = leader.arrows[k].scales));
     this.draw();
   }
 

@@ -1,0 +1,72 @@
+// What acts between elements and nodes, as arrows at the ends of the elements: their forces on the nodes, and the power that flows
+// into them and out of them. Each unit has one scale.
+import { largestOf } from './units.js';
+import { roundBelow } from './motion-scale.js';
+
+const longest = 30; // px
+const head = 5; // px
+const belowForces = 9; // Distance of the arrows of power from those of the forces [px].
+
+// The ends of the elements of which forces are known: { element, node, x, y, isLeft, force, unit }. A mass has no symbol between two nodes.
+function endsOf(parts, data) {
+  const elements = new Map(data.scene.elements.map((element) => [element.name, element]));
+  return parts.flatMap((part) => {
+    const record = data.records[data.index.get(`${part.name}.force`)];
+    const element = elements.get(part.name);
+    if (!record || !element || part.node.classList.contains('mass')) return [];
+    const end = (node, isLeft) => ({ element, node, isLeft, x: isLeft ? part.x : part.x + part.width, y: part.y + part.height / 2,
+      force: data.column(record.path), unit: record.unit });
+    if (!element.b) return [end(element.a, Boolean(part.left))];
+    return ['left', 'right'].filter((side) => part[side] && part[side] !== 'ground').map((side) => end(part[side], side === 'left'));
+  });
+}
+
+// An element pushes its second node forward by its force, and its first one backward. A drive pushes the only one forward.
+const pushes = ({ element, node }) => (!element.b || node === element.b ? 1 : -1);
+
+export const forcesOf = (parts, data) => endsOf(parts, data).map((end) => ({ ...end, column: end.force, sign: pushes(end) }));
+
+// Power flows to the right where an element takes it up at its left end, or gives it off at its right end.
+export function powersOf(parts, data) {
+  return endsOf(parts, data).flatMap((end) => {
+    const velocity = data.column(`${end.node}.velocity`);
+    if (!velocity) return [];
+    const given = end.force.map((force, i) => force * (velocity[i] ?? 0) * pushes(end));
+    return [{ ...end, y: end.y + belowForces, column: given, sign: end.isLeft ? -1 : 1, unit: 'W' }];
+  });
+}
+
+export class Arrows {
+  // `arrows`: [{ node, x, y, column, sign, unit }]; `kind` names their style, and what shows them.
+  constructor(svg, kind, arrows) {
+    this.host = document.createElementNS('http://www.w3.org/2000/svg', 'g');
+    this.host.setAttribute('class', `arrows ${kind}-arrows`);
+    svg.append(this.host);
+    this.kind = kind;
+    this.arrows = arrows.map((arrow) => {
+      const line = document.createElementNS('http://www.w3.org/2000/svg', 'path');
+      this.host.append(line);
+      return { ...arrow, line };
+    });
+    this.scales = new Map();
+    for (const unit of new Set(arrows.map((arrow) => arrow.unit))) {
+      const most = largestOf(arrows.filter((arrow) => arrow.unit === unit).map(({ column }) => column));
+      if (most > 0) this.scales.set(unit, { px: longest / most, of: roundBelow(most) });
+    }
+  }
+
+  // At row i; shiftOf(node): displacement of a node from its drawn position [px].
+  show(i, shiftOf) {
+    for (const { line, x, y, node, sign, column, unit } of this.arrows) {
+      const length = sign * (column[Math.min(i, column.length - 1)] ?? 0) * (this.scales.get(unit)?.px ?? 0);
+      const tip = Math.sign(length) * Math.min(head, Math.abs(length));
+      const from = x + shiftOf(node);
+      line.setAttribute('d', Math.abs(length) < 0.5 ? '' : `M${from.toFixed(2)} ${y}h${length.toFixed(2)}m${-tip} ${-head / 1.6}l${tip} ${head / 1.6}l${-tip} ${head / 1.6}`);
+    }
+  }
+
+  // The lengths of the arrows: [{ px, of, unit, kind }].
+  get legend() {
+    return [...this.scales].map(([unit, { px, of }]) => ({ px: px * of, of, unit, kind: this.kind }));
+  }
+}
