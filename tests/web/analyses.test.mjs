@@ -147,6 +147,18 @@ test('a sweep draws the resonance curve: F/(2 zeta k) at resonance', async () =>
   await close();
 });
 
+test('from the sliders a button leads to the sweep of the number that was moved last', async () => {
+  const { page, close } = await desk.open('#file=forced.toml');
+  const moved = page.locator('.slider[data-slider="parameters.zeta"] input[type="range"]');
+  await redrawn(page, () => moved.press('ArrowRight'));
+  await page.getByRole('button', { name: 'Sweep', exact: true }).click();
+  const sweep = fold(page, 'Sweep');
+  await sweep.getByRole('button', { name: 'Run the sweep' }).waitFor();
+  assert.equal(await sweep.getByLabel('number', { exact: true }).inputValue(), 'parameters.zeta');
+  await page.waitForFunction(() => document.querySelector('.sweep-fields button').getBoundingClientRect().bottom < innerHeight);
+  await close();
+});
+
 test('a sweep of the number of elements shows the error: 2 Fc/(4 n^2) of n sliders', async () => {
   const { page, close } = await desk.open('#file=iwan.toml');
   const [n, error] = await swept(page, { number: 'parameters.n', from: 1, to: 8, runs: 8, measure: 'largest difference from', records: [['other record', 'iwan.force'], ['record', 'smooth.force']] });

@@ -1,6 +1,7 @@
 // Foldable sections with the details of a run.
 import './analysis.css';
 import { Analysis } from './analysis.js';
+import { calm } from './animation.js';
 import { explain } from './api.js';
 import { differencesOf } from './differences.js';
 import { element } from './dom.js';
@@ -54,6 +55,17 @@ export class Folds {
       done ? this.fold('Price of accuracy', t('Price of accuracy'), () => this.prices.show(this.request())) : null,
       this.fold('Sweep', t('Sweep'), () => this.sweep.show(scene, this.request())),
     ].filter(Boolean));
+  }
+
+  // Goes to the sweep, of the number with this path if one is given.
+  openSweep(path) {
+    const details = this.host.querySelector('[data-name="Sweep"]');
+    if (!details) return;
+    if (path) this.sweep.choose(path);
+    details.open = true;
+    details.dispatchEvent(new Event('toggle')); // fills it before the page scrolls
+    details.scrollIntoView({ behavior: calm() ? 'auto' : 'smooth' });
+    details.querySelector('summary').focus({ preventScroll: true });
   }
 
   // The explanation takes a moment; the earlier one stays until then.

@@ -117,7 +117,8 @@ class Playground {
     host.append(bar, element('main', { class: 'desk' },
       box('editor', t('Netlist'), this.choice, part('editor'), part('mistakes')),
       // Before the stage: that is the order of the Tab key.
-      box('sliders', t('Sliders'), part('inspector', 'section'), part('sliders')),
+      box('sliders', t('Sliders'), part('inspector', 'section'), part('sliders'),
+        button(t('Sweep'), () => this.folds.openSweep(this.sliders.latest?.path), { class: 'to-sweep', title: t('Runs the scene for many values of a number, and draws a measure of each run.') })),
       element('div', { class: 'stage' },
         element('div', { class: 'view' },
           (this.lesson = box('lesson', t('Question'))),

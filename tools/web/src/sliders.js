@@ -144,6 +144,7 @@ class Slider {
       return;
     }
     this.accept();
+    this.panel.latest = this;
     this.knob.value = value;
     this.show();
     const quote = /^["']/.test(found) ? found[0] : '';
@@ -160,6 +161,7 @@ export class Sliders {
     this.all = [];
     this.shape = '';
     this.held = null;
+    this.latest = null; // the slider that was moved last
     this.firsts = new Map();
     this.undoAll = element('button', { type: 'button', class: 'undo-all', title: t('All numbers as the scene was opened (R)'), hidden: true, onclick: () => this.reset() }, t('↺ Reset all'));
     host.before(this.undoAll);
@@ -191,7 +193,7 @@ export class Sliders {
   }
 
   build(knobs) {
-    this.held = null;
+    this.held = this.latest = null;
     this.all = [];
     this.all = knobs.map((knob) => {
       const slider = new Slider(this, { ...knob });

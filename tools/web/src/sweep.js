@@ -61,6 +61,12 @@ export class SweepPanel {
     return this.knobs.find(({ path }) => path === this.chosen.path) ?? asked[0] ?? this.knobs[0];
   }
 
+  // Sweeps the number with this path.
+  choose(path) {
+    this.chosen.path = path;
+    if (this.fields) this.build();
+  }
+
   get measure() {
     return measures[this.chosen.measure] ?? measures.magnitude;
   }
