@@ -60,7 +60,6 @@ export class Folds {
   // Goes to the sweep, of the number with this path if one is given.
   openSweep(path) {
     const details = this.host.querySelector('[data-name="Sweep"]');
-    if (!details) return;
     if (path) this.sweep.choose(path);
     details.open = true;
     details.dispatchEvent(new Event('toggle')); // fills it before the page scrolls
