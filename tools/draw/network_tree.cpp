@@ -1,6 +1,7 @@
 #include "tools/draw/network_tree.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "core/network/component.hpp"
@@ -336,11 +337,35 @@ void sort_parallels(Block& block) {
   block.parts = std::move(parts);
 }
 
+/// Positions increase to the right: 1 if the first end of an element has to be to the left of the second, because it strikes there with
+/// increasing position, -1 if it has to be to the right, 0 if both will do. A stop with one bound tells.
+int side_of(const SceneElement& element) {
+  const std::vector<Parameter>& parameters = declarations()[static_cast<std::size_t>(element.declaration)]->parameters;
+  const auto given = [&](const char* name) {
+    for (std::size_t k = 0; k < parameters.size() && k < element.values.size(); ++k)
+      if (parameters[k].name == name) return std::isfinite(element.values[k]);
+    return false;
+  };
+  return int{given("upper")} - int{given("lower")};
+}
+
+/// How many elements of a part stand on the wrong side, less those that stand on the right one.
+int on_wrong_side(const Block& block, const Scene& scene) {
+  int sum = 0;
+  for (const Block& part : block.parts) sum += on_wrong_side(part, scene);
+  if (block.kind != Block::Kind::element || block.of_support) return sum;
+  const SceneElement& element = scene.elements[static_cast<std::size_t>(block.element)];
+  return sum + (block.left == element.a ? -side_of(element) : side_of(element));
+}
+
 }  // namespace
 
 Forest forest_of(const Scene& scene) {
   Forest forest = Reduction(scene).forest();
-  for (Block& row : forest.rows) sort_parallels(row);
+  for (Block& row : forest.rows) {
+    if (on_wrong_side(row, scene) > 0) row.reverse();
+    sort_parallels(row);
+  }
   for (Mesh& mesh : forest.meshes)
     for (Mesh::Link& link : mesh.links) sort_parallels(link.block);
   return forest;

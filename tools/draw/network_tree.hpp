@@ -59,7 +59,7 @@ struct Forest {
   std::vector<Mesh> meshes;
 };
 
-/// Finds the order in which a network is drawn: drives to the left, ground to the right. Deterministic.
+/// Finds the order in which a network is drawn: drives to the left, ground to the right, unless stops would strike on their far side then. Deterministic.
 Forest forest_of(const Scene& scene);
 
 }  // namespace rheonet::draw

@@ -153,8 +153,8 @@ export class SymbolMotion {
     return () => stretched;
   }
 
-  // The outer plates go with the nodes; each inner one is as far from its outer one as the stop is from touching. On a side on which
-  // nothing stops, it is beside the other inner one.
+  // The outer plates go with the nodes; each inner one is as far from its outer one as the stop is from touching. A stop that is only
+  // pressed has two plates, and one that is only drawn apart has a single inner one.
   stopMaps(dl, dr, [pressed, apart]) {
     const plates = this.pieces.filter(({ low, high }) => high - low < 0.1).map(({ low }) => low).sort((a, b) => a - b);
     const [first, last] = [plates[0] + dl, plates.at(-1) + dr];
@@ -162,7 +162,8 @@ export class SymbolMotion {
     const room = Math.max(0, isTwoSided ? (last - first) / 2 - 2 : last - first - 4);
     let inner = [first + Math.min(room, pressed), last - Math.min(room, apart)];
     if (!isTwoSided) inner = Number.isFinite(pressed) ? [inner[0], inner[0]] : [inner[1], inner[1]];
-    const all = through([[this.low, this.low + dl], [plates[0], first], [plates[1], inner[0]], [plates[2], inner[1]], [plates[3], last], [this.high, this.high + dr]]);
+    const right = isTwoSided || Number.isFinite(apart) ? last : inner[0];
+    const all = through([[this.low, this.low + dl], [plates[0], first], [plates[1], inner[0]], [plates[2], inner[1]], [plates[3], right], [this.high, this.high + dr]]);
     return () => all;
   }
 }
