@@ -239,6 +239,21 @@ test('forces and flows of power are arrows to scales that are shown, and energy 
   await close();
 });
 
+test('what can be clicked moves with the drawing', async () => {
+  const { page, close } = await open('#file=stick-slip.toml');
+  const apart = () => page.evaluate(() => [...document.querySelectorAll('.drawing [data-element]')].map((part) => {
+    const [shown, handle] = [part, document.querySelector(`.element-handle[data-of="${part.dataset.element}"]`)].map((node) => node.getBoundingClientRect());
+    return Math.abs(shown.left + shown.right - handle.left - handle.right) / 2; // a slider that is far from its rail extends it
+  }));
+  const before = await page.locator('.drawing [data-element="m1"]').boundingBox();
+  for (const part of [0, 0.5, 0.99]) {
+    await at(page, part);
+    for (const px of await apart()) assert.ok(px < 7, `${px} px at ${part}`);
+  }
+  assert.ok(Math.abs((await page.locator('.drawing [data-element="m1"]').boundingBox()).x - before.x) > 5);
+  await close();
+});
+
 test('a mass that is pulled starts where it is let go, and a drive gets another value', async () => {
   const { page, close } = await open('#file=oscillator.toml');
   const handle = page.locator('.element-handle[data-of="block"]');

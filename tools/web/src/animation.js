@@ -17,9 +17,10 @@ const step = 500; // Time between two pictures for users who prefer reduced moti
 const gapOfTurning = 8; // Largest gap between the plates of a rotational stop [px].
 
 export class Animation {
-  // `follower`: the animation of another run, which shows the same times to the same scales.
-  constructor(host, { onframe = () => {}, follower = null } = {}) {
+  // onframe(time) is called for each picture, onmove(shiftOf) as well, with the displacements of nodes [px]. `follower`: the animation of another run, which shows the same times to the same scales.
+  constructor(host, { onframe = () => {}, onmove = () => {}, follower = null } = {}) {
     this.onframe = onframe;
+    this.onmove = onmove;
     this.follower = follower;
     this.playing = false;
     this.place = 0; // Position in the run, 0 to 1.
@@ -158,6 +159,7 @@ export class Animation {
       if (scale.runs(name)) node.style.strokeDashoffset = (-(scale.run(name, i) % 1000)).toFixed(2);
     }
     for (const part of this.parts) this.drawPart(part, shift, i);
+    this.onmove(shift);
     this.svg.closest('.drawing')?.classList.toggle('moved', this.place > 0);
     this.turning.show((node) => scale.angle(node, i));
     this.labels.place(shift);

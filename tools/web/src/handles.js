@@ -38,6 +38,7 @@ export class Handles {
     const layer = shape('g', { class: 'handles' });
     const walls = [...svg.querySelectorAll('path.ground')].map((path) => ({ path, node: 'ground' }));
     const wires = [...svg.querySelectorAll('path.node')].map((path) => ({ path, node: path.dataset.node }));
+    this.ends = scene.ends;
     for (const { path, node } of [...walls, ...wires]) layer.append(shape('path', { class: 'wire-handle', d: path.getAttribute('d'), 'data-at': node }));
     for (const part of svg.querySelectorAll('[data-element]')) layer.append(this.overElement(part, scene));
     const seen = new Set();
@@ -56,6 +57,19 @@ export class Handles {
     this.rove(Math.min(this.place, this.buttons.length - 1));
     layer.addEventListener('keydown', (event) => this.key(event));
     layer.addEventListener('focusin', (event) => this.rove(this.buttons.indexOf(event.target)));
+  }
+
+  // Moves the handles with the drawing; shiftOf(node): how far a node is from where it is drawn [px].
+  follow(shiftOf) {
+    for (const handle of this.svg?.querySelectorAll('.handles > [data-of], .handles > [data-at]') ?? []) {
+      const { of, at } = handle.dataset;
+      const { left, right } = this.ends[of] ?? {};
+      const [low, high] = of ? [shiftOf(left ?? right), shiftOf(right ?? left)] : [shiftOf(at), shiftOf(at)];
+      handle.style.transform = low || high ? `translateX(${low.toFixed(2)}px)` : '';
+      if (!of) continue;
+      handle.dataset.width ??= handle.getAttribute('width');
+      handle.setAttribute('width', Math.max(0, Number(handle.dataset.width) + high - low).toFixed(2));
+    }
   }
 
   // Adds ground beside the drawing, which is widened for it.
@@ -118,7 +132,6 @@ export class Handles {
   targetOf(node) {
     const handle = node?.closest?.('[data-at], [data-of]');
     if (handle?.dataset.of) return { element: handle.dataset.of };
-    // In motion the symbol of an element is beside its handle.
     const part = node?.closest?.('[data-element]');
     if (part) return { element: part.dataset.element };
     return handle ? { node: handle.dataset.at } : {};

@@ -54,7 +54,7 @@ class Playground {
     this.traces = new Traces(() => this.showPlots());
     this.plots = new PlotPanel(this.parts.plots, { onchange: () => this.showSections(), fits: true, traces: this.traces });
     this.folds = new Folds(this.parts.sections, () => this.request(), (path, value) => this.sliders.slide(path, value));
-    this.animation = new Animation(this.parts.animation, { onframe: (time) => this.plots.mark(time), follower: this.beside.animation });
+    this.animation = new Animation(this.parts.animation, { onframe: (time) => this.plots.mark(time), onmove: (shiftOf) => this.drawing.handles.follow(shiftOf), follower: this.beside.animation });
     this.course = new Lesson(this.lesson, {
       sliders: this.sliders, language,
       others: () => this.files.lessons(),
