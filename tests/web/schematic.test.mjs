@@ -225,8 +225,9 @@ test('forces and flows of power are arrows to scales that are shown, and energy 
   assert.ok(found.some((length) => Math.abs(length - px) < 0.1) && found.some((length) => Math.abs(length + px) < 0.1), `${found}, ${px} px/N`);
   await page.locator('[data-shows="energy"]').check();
   // The work of the hand so far is the energy of the spring: (1 N)^2/(2 k).
-  const [, supplied, stored, dissipated] = /supplied([\d.]+) mJstored([\d.]+) mJdissipated([\d.]+) mJ/.exec(await page.locator('.energy-bars').textContent()).map(Number);
-  assert.ok(Math.abs(supplied - 5) < 0.25 && Math.abs(stored - 5) < 0.25 && dissipated < 0.01, `${supplied} ${stored} ${dissipated}`);
+  const energies = async () => /supplied([\d.]+) mJkinetic([\d.]+) mJelastic([\d.]+) mJdissipated([\d.]+) mJ/.exec(await page.locator('.energy-bars').textContent()).slice(1).map(Number);
+  const [supplied, kinetic, elastic, dissipated] = await energies();
+  assert.ok(Math.abs(supplied - 5) < 0.25 && kinetic === 0 && Math.abs(elastic - 5) < 0.25 && dissipated < 0.01, `${supplied} ${kinetic} ${elastic} ${dissipated}`);
   // The hand moves with 10 mm/s: 10 mW flow from it into the spring, and nothing out of it, because the block rests.
   const key = page.locator('.motion-legend .key', { has: page.locator('.scale-bar.energy-arrow') });
   const [, shown, milli] = /^([\d.]+)\u00a0(m?)W$/.exec(await key.textContent()) ?? assert.fail(await key.textContent());
@@ -236,6 +237,22 @@ test('forces and flows of power are arrows to scales that are shown, and energy 
   assert.ok(flows.length === 2 && flows.every((length) => Math.abs(length - (10 * width) / size) < 0.1), `${flows}, ${width} px for ${size} mW`);
   await page.locator('[data-shows="forces"]').uncheck();
   assert.equal(await page.locator('.forces-arrows').isVisible(), false);
+  await close();
+});
+
+test('the energy of an oscillation goes to and fro, and nothing of it is lost', async () => {
+  const { page, close } = await open('#file=oscillator.toml');
+  await page.locator('[data-shows="energy"]').check();
+  const seen = [];
+  for (let k = 0; k < 10; ++k) {
+    await at(page, 0.037 * k);
+    seen.push((await page.locator('.energy-bars output').allTextContents()).map((text) => Number.parseFloat(text)));
+  }
+  const left = seen.map(([supplied, kinetic, elastic, dissipated]) => supplied - kinetic - elastic - dissipated);
+  const most = Math.max(...seen.flat());
+  assert.ok(Math.max(...left) - Math.min(...left) < 0.02 * most, String(left));
+  const kinetic = seen.map((each) => each[1]);
+  assert.ok(Math.max(...kinetic) > 0.1 * most && Math.min(...kinetic) < 0.01 * most, String(kinetic));
   await close();
 });
 

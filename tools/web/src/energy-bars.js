@@ -1,8 +1,9 @@
-// Bars of the energy account at an instant: energy supplied, stored and dissipated.
+// Bars of the energy at an instant: supplied, kinetic and elastic, dissipated.
 import { element } from './dom.js';
+import { t } from './messages.js';
 import { largestOf, shownIn, spaced } from './units.js';
 
-const kinds = ['supplied', 'stored', 'dissipated'];
+const kinds = { supplied: t('supplied'), kinetic: t('kinetic'), elastic: t('elastic'), dissipated: t('dissipated') };
 
 // The slope at a point of a monotone cubic interpolant (Fritsch and Butland 1984).
 function slope(times, values, k) {
@@ -24,18 +25,45 @@ function between(times, values, k, time) {
     + length * s * (1 - s) * (slope(times, values, k) * (1 - s) - slope(times, values, k + 1) * s);
 }
 
+// The kinetic energy at a time, from the velocities in the rows.
+function kineticOf(data) {
+  const parts = data.scene.elements.flatMap(({ name, a, b, numbers }) => {
+    const inertia = numbers.mass ?? numbers.inertia ?? numbers.inertance;
+    const velocity = data.column(`${b ? name : a}.velocity`);
+    return inertia > 0 && velocity?.length ? [{ inertia, velocity }] : [];
+  });
+  return (time) => {
+    const near = data.at(time);
+    const first = Math.max(0, data.time[near] > time ? near - 1 : near);
+    const second = Math.min(data.time.length - 1, first + 1);
+    const length = data.time[second] - data.time[first];
+    const share = length > 0 ? Math.min(1, Math.max(0, (time - data.time[first]) / length)) : 0;
+    return parts.reduce((sum, { inertia, velocity }) => sum + (inertia * (velocity[first] + share * (velocity[second] - velocity[first])) ** 2) / 2, 0);
+  };
+}
+
 export class EnergyBars {
   constructor(host) {
     this.host = host;
-    this.bars = Object.fromEntries(kinds.map((kind) => [kind, { bar: element('span', { class: `bar-of ${kind}` }), value: element('output') }]));
-    host.append(...kinds.map((kind) => element('span', { class: 'energy' }, element('span', { class: 'energy-name' }, kind),
-      element('span', { class: 'bar-room' }, this.bars[kind].bar), this.bars[kind].value)));
+    this.bars = Object.fromEntries(Object.keys(kinds).map((kind) => [kind, { bar: element('span', { class: `bar-of ${kind}` }), value: element('output') }]));
+    host.append(...Object.entries(kinds).map(([kind, name]) =>
+      element('span', { class: 'energy', title: kind === 'elastic' ? t('counted from its least value in the run') : null }, element('span', { class: 'energy-name' }, name),
+        element('span', { class: 'bar-room' }, this.bars[kind].bar), this.bars[kind].value)));
   }
 
   attach(data) {
     this.energy = data.hasEnergy ? data.energy : null;
     if (!this.energy) return;
-    this.largest = largestOf(kinds.map((kind) => this.energy[kind]));
+    const { time, supplied, stored, dissipated } = this.energy;
+    const kineticAt = kineticOf(data);
+    const kinetic = time.map(kineticAt);
+    // The account counts what is stored from the start on; what is not kinetic is elastic, and least where the springs are relaxed.
+    const least = Math.min(...stored.map((value, k) => value - kinetic[k]));
+    this.at = (k, now) => {
+      const [gained, moving] = [between(time, stored, k, now), kineticAt(now)];
+      return { supplied: between(time, supplied, k, now), kinetic: moving, elastic: gained - moving - least, dissipated: between(time, dissipated, k, now) };
+    };
+    this.largest = largestOf([supplied, kinetic, stored.map((value, k) => value - kinetic[k] - least), dissipated]);
     this.unit = shownIn('J', this.largest);
   }
 
@@ -43,9 +71,8 @@ export class EnergyBars {
     if (!this.energy) return;
     const { time: times } = this.energy;
     const next = times.findIndex((t) => t > time);
-    const k = Math.max(0, (next < 0 ? times.length - 1 : next) - 1);
-    for (const kind of kinds) {
-      const value = between(times, this.energy[kind], k, time);
+    const values = this.at(Math.max(0, (next < 0 ? times.length - 1 : next) - 1), time);
+    for (const [kind, value] of Object.entries(values)) {
       const { bar, value: output } = this.bars[kind];
       // Negative values extend to the left.
       const share = this.largest > 0 ? value / this.largest : 0;
