@@ -97,13 +97,18 @@ double StatePowers::stored() const {
       energy += laws.batch->stored_energy(i, view_.p[at(laws.first) + i]);
     }
   }
+  for (const Network::Force& f : network_.forces) {
+    if (f.energy >= 0) energy += dae_.inputs().blocks().out(f.energy).value;
+  }
+  return energy + kinetic();
+}
+
+double StatePowers::kinetic() const {
+  double energy = 0;
   for (std::size_t n = 0; n < view_.velocity.size(); ++n) {
     energy += dae_.structure().own_mass[n] * view_.velocity[n] * view_.velocity[n] / 2;
   }
   for (std::size_t k = 0; k < network_.inerters.size(); ++k) energy += inerter_energy(k);
-  for (const Network::Force& f : network_.forces) {
-    if (f.energy >= 0) energy += dae_.inputs().blocks().out(f.energy).value;
-  }
   return energy;
 }
 

@@ -17,6 +17,7 @@ class StatePowers {
   double dissipated() const;
   double heat_of_laws() const;
   double stored() const;
+  double kinetic() const;  ///< The part of it that masses and inerters have by their motion.
   /// Whether powers depend on y': if velocities follow from rates of deflections, or laws dissipate by these rates.
   static bool need_rates(const Dae& dae);
 

@@ -6,6 +6,7 @@
 
 #include "core/dae/consistency.hpp"
 #include "core/dae/dae.hpp"
+#include "core/dae/state_powers.hpp"
 #include "core/solve/integrator.hpp"
 
 namespace rheonet {
@@ -30,6 +31,9 @@ class EnergyAccount {
   double supplied() const { return sum_.supplied; }
   double dissipated() const { return sum_.dissipated; }
   double stored() const { return stored_ - stored_at_start_; }
+  /// What is stored at present as motion, and otherwise: in springs, in laws, in blocks.
+  double kinetic() const { return StatePowers(*dae_).kinetic(); }
+  double elastic() const { return stored_ - kinetic(); }
   double largest() const { return largest_; }
   double missing() const { return supplied() - stored() - dissipated(); }
 

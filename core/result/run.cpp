@@ -186,7 +186,7 @@ class Recorder final : public Observer {
   }
 
   void tell_energy(double t) const {
-    if (account_) account_(scene_time(t), {energy_->supplied(), energy_->stored(), energy_->dissipated()});
+    if (account_) account_(scene_time(t), {energy_->supplied(), energy_->stored(), energy_->dissipated(), energy_->kinetic(), energy_->elastic()});
   }
 
   double scene_time(double t) const { return t == length_ ? scene_.stop : scene_.start + t; }

@@ -13,9 +13,11 @@
 
 namespace rheonet {
 
-/// The energy account up to a time of a run [J]; its defect is supplied - stored - dissipated.
+/// The energy account up to a time of a run [J]; its defect is supplied - stored - dissipated. `stored` is the gain since the start of
+/// the energies that the network has at that time, kinetic and elastic.
 struct EnergySoFar {
   double supplied = 0, stored = 0, dissipated = 0;
+  double kinetic = 0, elastic = 0;
 };
 
 struct RunSettings {

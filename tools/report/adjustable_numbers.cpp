@@ -142,7 +142,14 @@ class Finder {
     }
   }
 
-  /// A positive quantity gets a logarithmic range of decades; a quantity of either sign gets a range through 0.
+  /// The 1, 2 or 5 times a power of ten that is next to a value, upward or downward.
+  static double round_end(double value, bool upward) {
+    const double power = std::pow(10, std::floor(std::log10(value) + 1e-9)), digit = value / power * (upward ? 1 - 1e-9 : 1 + 1e-9);
+    if (upward) return (digit <= 1 ? 1 : digit <= 2 ? 2 : digit <= 5 ? 5 : 10) * power;
+    return (digit >= 5 ? 5 : digit >= 2 ? 2 : 1) * power;
+  }
+
+  /// A positive quantity gets a logarithmic range of two decades; a quantity of either sign gets a range through 0.
   void set_range(AdjustableNumber& knob, const Parameter* declared) const {
     const double v = knob.value, size = std::abs(v);
     const bool number = declared ? declared->quantity == Quantity::number && declared->unit == Parameter::Unit::quantity : knob.unit.empty();
@@ -159,13 +166,16 @@ class Finder {
       knob.scale = AdjustableNumber::Scale::logarithmic;
       knob.low = 1e-10;
       knob.high = 0.1;
+    } else if (number && !declared && v > 0 && v <= 1) {  // a share or a ratio: of friction, of damping, of an impact
+      knob.low = 0;
+      knob.high = 1;
     } else if (is_time || (number && declared)) {
       knob.low = 0;
       knob.high = std::max(3 * v, number ? 2.0 : 0.0);
     } else if (v > 0 && (!declared || declared->lower >= 0) && declared_kind_spans_decades(declared, knob)) {
       knob.scale = AdjustableNumber::Scale::logarithmic;
-      knob.low = v / 30;
-      knob.high = v * 30;
+      knob.low = round_end(v / 10, false);
+      knob.high = round_end(v * 10, true);
     } else {
       knob.low = v < 0 || declared ? -3 * size : 0;
       knob.high = 3 * size;

@@ -72,14 +72,14 @@ class EnergyCourse {
 
   std::string message() {
     if (!points_.empty() && points_.back().time != last_.time) keep();
-    json supplied = json::array(), stored = json::array(), dissipated = json::array(), time = json::array();
+    json message = {{"kind", "energy"}};
+    for (const char* name : {"time", "supplied", "stored", "dissipated", "kinetic", "elastic"}) message[name] = json::array();
     for (const Point& p : points_) {
-      time.push_back(p.time);
-      supplied.push_back(p.energy.supplied);
-      stored.push_back(p.energy.stored);
-      dissipated.push_back(p.energy.dissipated);
+      const EnergySoFar& e = p.energy;
+      for (const auto& [name, value] : {std::pair{"time", p.time}, {"supplied", e.supplied}, {"stored", e.stored}, {"dissipated", e.dissipated},
+                                        {"kinetic", e.kinetic}, {"elastic", e.elastic}}) message[name].push_back(value);
     }
-    return to_line({{"kind", "energy"}, {"time", time}, {"supplied", supplied}, {"stored", stored}, {"dissipated", dissipated}});
+    return to_line(message);
   }
 
  private:

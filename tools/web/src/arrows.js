@@ -1,11 +1,19 @@
 // What acts between elements and nodes, as arrows at the ends of the elements: their forces on the nodes, and the power that flows
 // into them and out of them. Each unit has one scale.
-import { largestOf } from './units.js';
 import { roundBelow } from './motion-scale.js';
 
-const longest = 30; // px
+const longest = 30; // px, of all arrows but those of short peaks
+const most = 60; // Arrows of larger forces are broken [px].
+const peak = { times: 3, rows: 0.03 }; // A peak is so many times what is exceeded in this part of the rows.
 const head = 5; // px
 const belowForces = 9; // Distance of the arrows of power from those of the forces [px].
+
+// The largest magnitude in these columns, without short peaks.
+function usualOf(columns) {
+  const largest = columns.length ? columns[0].map((_, i) => Math.max(...columns.map((column) => Math.abs(column[i] ?? 0)))).sort((a, b) => a - b) : [];
+  const [usual, all] = [largest[Math.floor((1 - peak.rows) * (largest.length - 1))] ?? 0, largest.at(-1) ?? 0];
+  return usual > 0 && all > peak.times * usual ? usual : all;
+}
 
 // The ends of the elements of which forces are known: { element, node, x, y, isLeft, force, unit }. A mass has no symbol between two nodes.
 function endsOf(parts, data) {
@@ -50,15 +58,17 @@ export class Arrows {
     });
     this.scales = new Map();
     for (const unit of new Set(arrows.map((arrow) => arrow.unit))) {
-      const most = largestOf(arrows.filter((arrow) => arrow.unit === unit).map(({ column }) => column));
-      if (most > 0) this.scales.set(unit, { px: longest / most, of: roundBelow(most) });
+      const usual = usualOf(arrows.filter((arrow) => arrow.unit === unit).map(({ column }) => column));
+      if (usual > 0) this.scales.set(unit, { px: longest / usual, of: roundBelow(usual) });
     }
   }
 
   // At row i; shiftOf(node): displacement of a node from its drawn position [px].
   show(i, shiftOf) {
     for (const { line, x, y, node, sign, column, unit } of this.arrows) {
-      const length = sign * (column[Math.min(i, column.length - 1)] ?? 0) * (this.scales.get(unit)?.px ?? 0);
+      const full = sign * (column[Math.min(i, column.length - 1)] ?? 0) * (this.scales.get(unit)?.px ?? 0);
+      const length = Math.sign(full) * Math.min(most, Math.abs(full));
+      line.classList.toggle('longer', length !== full);
       const tip = Math.sign(length) * Math.min(head, Math.abs(length));
       const from = x + shiftOf(node);
       line.setAttribute('d', Math.abs(length) < 0.5 ? '' : `M${from.toFixed(2)} ${y}h${length.toFixed(2)}m${-tip} ${-head / 1.6}l${tip} ${head / 1.6}l${-tip} ${head / 1.6}`);

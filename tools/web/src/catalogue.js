@@ -2,6 +2,10 @@
 import { catalogue as ask } from './api.js';
 import { t } from './messages.js';
 
+// What most networks are made of comes first in its group.
+const basics = ['mass', 'force', 'motion', 'spring', 'dashpot', 'slider'];
+const rank = ({ type }) => (basics.includes(type.translation) ? basics.indexOf(type.translation) : basics.length);
+
 // The names in the page of rheonet's groups of types, in the order of building a network.
 export const groupNames = () => ({ 'At a node': t('At a node'), 'Between two nodes': t('Between two nodes'), Transmissions: t('Transmissions'), Signals: t('Signals') });
 
@@ -19,7 +23,7 @@ class Catalogue {
   // Types by group.
   get groups() {
     const groups = new Map(Object.keys(groupNames()).map((name) => [name, []]));
-    for (const type of this.types) groups.set(type.group, [...(groups.get(type.group) ?? []), type]);
+    for (const type of [...this.types].sort((a, b) => rank(a) - rank(b))) groups.set(type.group, [...(groups.get(type.group) ?? []), type]);
     return groups;
   }
 

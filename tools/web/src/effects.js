@@ -83,6 +83,6 @@ export function effectsOf({ effects, effect_curves: curves }, charts) {
         t('One after the other, those first that matter least')),
     ] : null,
     recordsOf(effects),
-    element('p', { class: 'note' }, t('Differences are parts of the largest magnitude of the record.')),
+    element('p', { class: 'note' }, t('Differences are parts of the largest magnitude of the record in either of the two runs.')),
   ].flat(Infinity).filter(Boolean);
 }

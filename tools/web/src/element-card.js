@@ -3,6 +3,7 @@ import { element } from './dom.js';
 import { choiceField, readable, valueField } from './fields.js';
 import { lawOf } from './formulas.js';
 import { t } from './messages.js';
+import { startFields } from './node-card.js';
 import { richText } from './rich-text.js';
 import { inWords } from './sections.js';
 import { signalFields } from './signal-field.js';
@@ -49,7 +50,7 @@ class ElementCard {
     const isGroup = this.value.at('series') || this.value.at('parallel');
     const parts = [
       this.origin(), this.nameField(), isGroup ? null : this.typeField(), this.law(), ...this.nodeFields(),
-      ...(isGroup ? this.members(this.value, this.path) : this.parameters(this.path, this.value, this.type)),
+      ...(isGroup ? this.members(this.value, this.path) : this.parameters(this.path, this.value, this.type)), ...this.start(),
       this.neighbours(), this.foot(),
     ].filter(Boolean);
     return { heading: this.heading, parts, fields: this.fields, wrong: (mistakes) => this.wrong(mistakes), refresh: () => this.refresh(), move: (changes) => this.sliders?.move(changes) };
@@ -134,6 +135,15 @@ class ElementCard {
   law() {
     if (!this.known) return null;
     return element('div', { class: 'card-law' }, element('p', { class: 'about' }, inWords(this.known.summary)), lawOf(this.known.tex, this.type));
+  }
+
+  // Where a mass begins, and how fast: values of its node.
+  start() {
+    const node = this.known?.type.translation === 'mass' && this.value.at('at')?.plain;
+    if (!node) return [];
+    const fields = startFields(this.drawing, node, this.edit);
+    this.fields.push(...fields);
+    return fields.map(({ field }) => field.row);
   }
 
   nodeFields() {

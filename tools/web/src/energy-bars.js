@@ -25,45 +25,19 @@ function between(times, values, k, time) {
     + length * s * (1 - s) * (slope(times, values, k) * (1 - s) - slope(times, values, k + 1) * s);
 }
 
-// The kinetic energy at a time, from the velocities in the rows.
-function kineticOf(data) {
-  const parts = data.scene.elements.flatMap(({ name, a, b, numbers }) => {
-    const inertia = numbers.mass ?? numbers.inertia ?? numbers.inertance;
-    const velocity = data.column(`${b ? name : a}.velocity`);
-    return inertia > 0 && velocity?.length ? [{ inertia, velocity }] : [];
-  });
-  return (time) => {
-    const near = data.at(time);
-    const first = Math.max(0, data.time[near] > time ? near - 1 : near);
-    const second = Math.min(data.time.length - 1, first + 1);
-    const length = data.time[second] - data.time[first];
-    const share = length > 0 ? Math.min(1, Math.max(0, (time - data.time[first]) / length)) : 0;
-    return parts.reduce((sum, { inertia, velocity }) => sum + (inertia * (velocity[first] + share * (velocity[second] - velocity[first])) ** 2) / 2, 0);
-  };
-}
-
 export class EnergyBars {
   constructor(host) {
     this.host = host;
     this.bars = Object.fromEntries(Object.keys(kinds).map((kind) => [kind, { bar: element('span', { class: `bar-of ${kind}` }), value: element('output') }]));
     host.append(...Object.entries(kinds).map(([kind, name]) =>
-      element('span', { class: 'energy', title: kind === 'elastic' ? t('counted from its least value in the run') : null }, element('span', { class: 'energy-name' }, name),
+      element('span', { class: 'energy' }, element('span', { class: 'energy-name' }, name),
         element('span', { class: 'bar-room' }, this.bars[kind].bar), this.bars[kind].value)));
   }
 
   attach(data) {
     this.energy = data.hasEnergy ? data.energy : null;
     if (!this.energy) return;
-    const { time, supplied, stored, dissipated } = this.energy;
-    const kineticAt = kineticOf(data);
-    const kinetic = time.map(kineticAt);
-    // The account counts what is stored from the start on; what is not kinetic is elastic, and least where the springs are relaxed.
-    const least = Math.min(...stored.map((value, k) => value - kinetic[k]));
-    this.at = (k, now) => {
-      const [gained, moving] = [between(time, stored, k, now), kineticAt(now)];
-      return { supplied: between(time, supplied, k, now), kinetic: moving, elastic: gained - moving - least, dissipated: between(time, dissipated, k, now) };
-    };
-    this.largest = largestOf([supplied, kinetic, stored.map((value, k) => value - kinetic[k] - least), dissipated]);
+    this.largest = largestOf(Object.keys(kinds).map((kind) => this.energy[kind]));
     this.unit = shownIn('J', this.largest);
   }
 
@@ -71,8 +45,9 @@ export class EnergyBars {
     if (!this.energy) return;
     const { time: times } = this.energy;
     const next = times.findIndex((t) => t > time);
-    const values = this.at(Math.max(0, (next < 0 ? times.length - 1 : next) - 1), time);
-    for (const [kind, value] of Object.entries(values)) {
+    const k = Math.max(0, (next < 0 ? times.length - 1 : next) - 1);
+    for (const kind of Object.keys(kinds)) {
+      const value = between(times, this.energy[kind], k, time);
       const { bar, value: output } = this.bars[kind];
       // Negative values extend to the left.
       const share = this.largest > 0 ? value / this.largest : 0;

@@ -56,7 +56,7 @@ export function nodeCard(drawing, node) {
   };
 }
 
-function startFields(drawing, node, edit) {
+export function startFields(drawing, node, edit) {
   const units = drawing.domainAt(node) === 'rotation' ? { position: 'rad', velocity: 'rad/s' } : { position: 'm', velocity: 'm/s' };
   return Object.entries(units).map(([key, unit]) => {
     const path = ['nodes', node, key];

@@ -19,6 +19,7 @@ const measures = {
   steps: { label: t('steps'), texts: () => ['steps'], isOfRun: true },
 };
 
+const drives = new Set(['force', 'torque', 'motion']);
 const most = 400; // runs
 const decimal = /^[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i;
 
@@ -113,9 +114,12 @@ export class SweepPanel {
     return this.chosen.log ?? this.knob.scale === 'log';
   }
 
-  // Records that are chosen, if the scene still has them, or else the first that it records.
+  // Records that are chosen, if the scene still has them, or else the first that no drive gives.
   get record() {
-    return this.known(this.chosen.record) ?? this.scene.records[0]?.path;
+    const given = new Set(this.scene.elements.filter(({ type }) => drives.has(type)).flatMap(({ name, type, a }) =>
+      (type === 'motion' ? [`${a}.position`, `${a}.velocity`] : [`${name}.force`])));
+    const { records } = this.scene;
+    return this.known(this.chosen.record) ?? (records.find(({ path }) => !given.has(path)) ?? records[0])?.path;
   }
   get other() {
     return this.known(this.chosen.other) ?? this.scene.records[1]?.path ?? this.record;

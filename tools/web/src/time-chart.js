@@ -207,14 +207,17 @@ export class TimeChart extends Chart {
     ctx.strokeStyle = styled('--event');
     ctx.lineWidth = devicePixelRatio;
     ctx.beginPath();
-    let drawn = 0;
+    // Of events that are closer than that, a zoom shows the others.
+    const gap = 6 * devicePixelRatio;
+    let last = -Infinity;
     for (const time of this.events) {
       const x = plot.valToPos(time, 'x', true);
-      if (x < bbox.left || x > bbox.left + bbox.width || ++drawn > 300) continue;
+      if (x < Math.max(bbox.left, last + gap) || x > bbox.left + bbox.width) continue;
+      last = x;
       ctx.moveTo(x, bbox.top);
       ctx.lineTo(x, bbox.top + bbox.height);
     }
-    if (drawn <= 300) ctx.stroke();
+    ctx.stroke();
     ctx.restore();
   }
 
