@@ -82,6 +82,29 @@ test('sliders are those of the netlist that is open', async () => {
   await close();
 });
 
+test('a slider goes from a tenth of its value to ten times that, rounded, and of a ratio from 0 to 1', async () => {
+  const { page, close } = await open();
+  await page.locator('.cm-content').fill(`[parameters]
+e = 0.8
+m = "0.2 kg"
+g = "9.81 m/s^2"
+[elements]
+ball = { type = "mass", at = "ball", mass = "m" }
+weight = { type = "force", at = "ball", force = "-m*g" }
+floor = { type = "stop", between = ["ball", "ground"], lower = 0, stiffness = "inf", restitution = "e" }
+[nodes]
+ball = { position = "1 m" }
+[simulate]
+stop = "1 s"
+`);
+  const ends = (path) => page.locator(`.slider[data-slider="${path}"] .limits span`).allTextContents();
+  await slider(page, 'parameters.e').waitFor();
+  assert.deepEqual(await ends('parameters.e'), ['0', '1']);
+  assert.deepEqual(await ends('parameters.g'), ['0.5', '100']);
+  assert.deepEqual(await ends('parameters.m'), ['0.02', '2']);
+  await close();
+});
+
 test('what is reset belongs to the scene: another text has other first numbers', async () => {
   const { page, close } = await open();
   await redrawn(page, () => number(page, 'parameters.Tc').fill('3').then(() => number(page, 'parameters.Tc').press('Enter')));
