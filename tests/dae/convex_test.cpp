@@ -91,4 +91,21 @@ TEST_CASE("Small forces balance beside large ones, or there is no answer") {
   }
 }
 
+// At a kink of a load all forces may be the round-off of round-off. Their powers underflow, so that no step seems to gain anything.
+TEST_CASE("Forces whose powers underflow are no forces that have to balance") {
+  for (const double force : {1e-105, 1e-160, 1e-215, 1e-300}) {
+    CAPTURE(force);
+    ConvexNetwork problem(4);
+    problem.fix(0, 0);
+    problem.add(3, 2, {.backward = 2.6e19, .forward = 2.6e19});
+    problem.add(2, 1, {.backward = 1.07e19, .forward = 1.07e19});
+    problem.add(1, 0, {.backward = 1, .forward = 1, .beyond = [](double w, double& slope) {
+                         slope = 1e7 / std::sqrt(std::max(std::abs(w), 1e-280));
+                         return std::copysign(2e7 * std::sqrt(std::abs(w)), w);
+                       }});
+    problem.load(3, force);
+    CHECK(problem.solve() == ConvexNetwork::Outcome::solved);
+  }
+}
+
 }  // namespace rheonet::test::convex_test
