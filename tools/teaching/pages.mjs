@@ -29,7 +29,7 @@ try {
     const frequency = page.locator('[data-slider="parameters.frequency"] input[type="range"]');
     await frequency.focus();
     const reads = () => page.locator('[data-slider="parameters.frequency"] input[type="text"]').inputValue();
-    for (let k = 0; k < 100 && Number(await reads()) < 5; ++k) await frequency.press('ArrowRight');
+    for (let k = 0; k < 200 && Number(await reads()) < 5; ++k) await frequency.press('ArrowRight');
     assert.ok(Math.abs(Number(await reads()) - 5) < 0.5, await reads());
     await page.waitForSelector('.loop-legend .key >> nth=1');
     await done(page);
