@@ -191,6 +191,23 @@ TEST_CASE("in series in a row, in parallel above each other, the drive to the le
   CHECK(wall.bottom > height(marks[2]));
 }
 
+TEST_CASE("a stop with one bound stands on the side where it strikes: positions increase to the right") {
+  for (const bool lower : {true, false}) {
+    for (const bool swapped : {true, false}) {
+      CAPTURE(lower);
+      CAPTURE(swapped);
+      // With its ends exchanged a stop strikes at the other bound.
+      const Scene scene = scene_from(fmt::format(R"([elements]
+ball   = {{ type = "mass", at = "ball", mass = "0.2 kg" }}
+weight = {{ type = "force", at = "ball", force = "{}2 N" }}
+floor  = {{ type = "stop", between = [{}], {} = 0, stiffness = "inf" }}
+)", lower ? "-" : "", swapped ? R"("ground", "ball")" : R"("ball", "ground")", lower != swapped ? "lower" : "upper"));
+      const auto marks = marks_of(drawn(scene), scene, {"ball", "floor"});
+      CHECK((middle(marks[1]) < middle(marks[0])) == lower);
+    }
+  }
+}
+
 TEST_CASE("a chain of masses is a row between walls, its dampers to ground hang below") {
   const Scene scene = scene_from(R"([elements]
 k1 = { type = "spring", between = ["ground", "a"], stiffness = "100 N/m" }

@@ -1,5 +1,5 @@
 // Animation of a run in the schematic, with play, pause, speed and a time slider.
-import { Arrows, forcesOf, powersOf } from './arrows.js';
+import { Arrows, forcesOf, hasForces, powersOf } from './arrows.js';
 import { element } from './dom.js';
 import { EnergyBars } from './energy-bars.js';
 import { Labels } from './labels.js';
@@ -15,6 +15,9 @@ const stepwise = matchMedia('(prefers-reduced-motion: reduce)');
 export const calm = () => stepwise.matches;
 const step = 500; // Time between two pictures for users who prefer reduced motion [ms].
 const gapOfTurning = 8; // Largest gap between the plates of a rotational stop [px].
+
+// What arrows show, and whose toggle shows them.
+const arrowsOf = { forces: forcesOf, energy: powersOf };
 
 export class Animation {
   // onframe(time) is called for each picture, onmove(shiftOf) as well, with the displacements of nodes [px]. `follower`: the animation of another run, which shows the same times to the same scales.
@@ -63,10 +66,10 @@ export class Animation {
     if (this.svg !== svg) this.take(svg);
     this.bounds = this.boundsOf(data.scene.elements);
     this.wires.forEach(({ node, name }) => node.classList.toggle('runs', this.scale.runs(name)));
-    this.arrows?.forEach(({ host }) => host.remove());
-    this.arrows = [new Arrows(svg, 'forces', forcesOf(this.parts, data)), new Arrows(svg, 'energy', powersOf(this.parts, data))];
+    Object.values(this.arrows ?? {}).forEach(({ host }) => host.remove());
+    this.arrows = {};
     this.bars.attach(data);
-    this.toggles.forces.hidden = !this.arrows[0].scales.size;
+    this.toggles.forces.hidden = !hasForces(this.parts, data);
     this.toggles.energy.hidden = !this.bars.energy;
     this.showSpeeds();
     this.showLegend();
@@ -143,7 +146,7 @@ export class Animation {
     if (scale.drift.size) parts.push(element('span', { class: 'key' }, element('span', { class: 'swatch running' }), t('runs on beyond the drawing')));
     if (this.parts.some(({ slides }) => slides))
       for (const [kind, text] of [['stick', t('sticks')], ['slip', t('slips')]]) parts.push(element('span', { class: 'key' }, element('span', { class: `swatch ${kind}` }), text));
-    this.arrowKeys = this.arrows.flatMap(({ legend }) => legend).map(({ px, of, unit, kind }) => ({ kind, key: bar(px, withUnit(of, unit, 3), `arrow ${kind}-arrow`) }));
+    this.arrowKeys = Object.values(this.arrows).flatMap(({ legend }) => legend).map(({ px, of, unit, kind }) => ({ kind, key: bar(px, withUnit(of, unit, 3), `arrow ${kind}-arrow`) }));
     this.legend.replaceChildren(...parts, ...this.arrowKeys.map(({ key }) => key));
   }
 
@@ -163,9 +166,9 @@ export class Animation {
     this.svg.closest('.drawing')?.classList.toggle('moved', this.place > 0);
     this.turning.show((node) => scale.angle(node, i));
     this.labels.place(shift);
-    for (const arrows of this.arrows) {
-      arrows.host.style.display = this.shows(arrows.kind) ? '' : 'none';
-      if (this.shows(arrows.kind)) arrows.show(i, shift);
+    for (const kind of Object.keys(arrowsOf)) {
+      if (this.shows(kind)) this.makeArrows(kind).show(i, shift);
+      if (this.arrows[kind]) this.arrows[kind].host.style.display = this.shows(kind) ? '' : 'none';
     }
     this.arrowKeys.forEach(({ kind, key }) => (key.hidden = !this.shows(kind)));
     this.energy.hidden = !this.shows('energy');
@@ -183,8 +186,17 @@ export class Animation {
     const { start, stop } = this.data.span;
     this.place = Math.min(1, Math.max(0, (time - start) / (stop - start)));
     for (const [name, toggle] of Object.entries(this.toggles)) toggle.firstChild.checked = leader.shows(name);
-    this.arrows.forEach((arrows, k) => (arrows.scales = leader.arrows[k].scales));
+    for (const kind of Object.keys(leader.arrows)) if (this.shows(kind)) this.makeArrows(kind).scales = leader.arrows[kind].scales;
     this.draw();
+  }
+
+  // The arrows of a run take a moment, which only those who look at them should wait for.
+  makeArrows(kind) {
+    if (!this.arrows[kind]) {
+      this.arrows[kind] = new Arrows(this.svg, kind, arrowsOf[kind](this.parts, this.data));
+      this.showLegend();
+    }
+    return this.arrows[kind];
   }
 
   drawPart(part, shift, i) {

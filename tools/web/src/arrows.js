@@ -10,7 +10,9 @@ const belowForces = 9; // Distance of the arrows of power from those of the forc
 
 // The largest magnitude in these columns, without short peaks.
 function usualOf(columns) {
-  const largest = columns.length ? columns[0].map((_, i) => Math.max(...columns.map((column) => Math.abs(column[i] ?? 0)))).sort((a, b) => a - b) : [];
+  const largest = new Float64Array(Math.max(0, ...columns.map(({ length }) => length)));
+  for (const column of columns) column.forEach((value, i) => (largest[i] = Math.max(largest[i], Math.abs(value))));
+  largest.sort();
   const [usual, all] = [largest[Math.floor((1 - peak.rows) * (largest.length - 1))] ?? 0, largest.at(-1) ?? 0];
   return usual > 0 && all > peak.times * usual ? usual : all;
 }
@@ -28,6 +30,8 @@ function endsOf(parts, data) {
     return ['left', 'right'].filter((side) => part[side] && part[side] !== 'ground').map((side) => end(part[side], side === 'left'));
   });
 }
+
+export const hasForces = (parts, data) => endsOf(parts, data).length > 0;
 
 // An element pushes its second node forward by its force, and its first one backward. A drive pushes the only one forward.
 const pushes = ({ element, node }) => (!element.b || node === element.b ? 1 : -1);
