@@ -54,6 +54,7 @@ export class Handles {
     layer.append(this.line);
     svg.append(layer);
     this.buttons = [...layer.querySelectorAll('[role=button]')];
+    this.moving = [...layer.querySelectorAll('[data-of], [data-at]')];
     this.rove(Math.min(this.place, this.buttons.length - 1));
     layer.addEventListener('keydown', (event) => this.key(event));
     layer.addEventListener('focusin', (event) => this.rove(this.buttons.indexOf(event.target)));
@@ -61,10 +62,13 @@ export class Handles {
 
   // Moves the handles with the drawing; shiftOf(node): how far a node is from where it is drawn [px].
   follow(shiftOf) {
-    for (const handle of this.svg?.querySelectorAll('.handles > [data-of], .handles > [data-at]') ?? []) {
+    for (const handle of this.moving ?? []) {
       const { of, at } = handle.dataset;
       const { left, right } = this.ends[of] ?? {};
       const [low, high] = of ? [shiftOf(left ?? right), shiftOf(right ?? left)] : [shiftOf(at), shiftOf(at)];
+      const shift = `${low.toFixed(2)} ${high.toFixed(2)}`;
+      if (shift === (handle.dataset.shift ?? '0.00 0.00')) continue;
+      handle.dataset.shift = shift;
       handle.style.transform = low || high ? `translateX(${low.toFixed(2)}px)` : '';
       if (!of) continue;
       handle.dataset.width ??= handle.getAttribute('width');
