@@ -262,9 +262,7 @@ bool ConvexNetwork::stick_where_idle() {
 /// That a step gains nothing says less: the gain of small forces is hidden by that of large ones.
 bool ConvexNetwork::answer_balances(Sums& sums) const {
   if (balanced(sums)) return true;
-  // The power of smaller forces underflows along a steep law.
-  static const double no_force = std::cbrt(std::numeric_limits<double>::min());
-  const double negligible = numerics::answer_imbalance * largest_force() + no_force;
+  const double negligible = numerics::answer_imbalance * largest_force() + numerics::underflowing_force;
   std::vector<double> allowed = sums.rounding;
   for (double& sum : allowed) sum += negligible;
   for (const Branch& b : branches_) {

@@ -31,7 +31,7 @@ class EnergyAccount {
   double supplied() const { return sum_.supplied; }
   double dissipated() const { return sum_.dissipated; }
   double stored() const { return stored_ - stored_at_start_; }
-  /// What is stored at present as motion, and otherwise: in springs, in laws, in blocks.
+  /// The energy stored at present: that of moving masses and inerters, and that of springs, laws and blocks [J].
   double kinetic() const { return StatePowers(*dae_).kinetic(); }
   double elastic() const { return stored_ - kinetic(); }
   double largest() const { return largest_; }

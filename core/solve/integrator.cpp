@@ -44,7 +44,7 @@ struct Integrator::Implementation {
   /// IDA counts time from the last restart, so that the round-off of steps and events is relative to the time since then.
   TimePoint begin, stop;
   double time = 0, previous = 0;  ///< from `begin` on [s]
-  double rounded_time = 0, rounded_previous = 0;  ///< the same as times, which are read many times a step [s]
+  double rounded_time = 0, rounded_previous = 0;  ///< times of the scene, rounded once a step because they are read often [s]
   /// IDA sums its step sizes with round-off. Many equal steps that are short against the time reached drift by up to half an
   /// ulp of time each. `lost` is the sum of these errors, and true time is IDA's time plus `lost` [s].
   double lost = 0;

@@ -16,7 +16,7 @@ constexpr int corrections = 200, stiffen_after = 8;
 constexpr int newton_steps = 200;
 // Losses follow the force that a transmission passes on, to this fraction of the largest force.
 constexpr double followed = 1e-9;
-// A velocity at rest comes out as this part of what the forces could have caused, or less.
+// A node counts as resting up to this part of the largest velocity that its forces could have given it.
 constexpr double left_of_rest = 1e-13;
 constexpr int rounds_of_slips = 20, rounds_of_losses = 100;
 // A balance is found to this part of the forces that meet there: some rounding errors.

@@ -29,9 +29,10 @@ struct Wiring {
 ///  * random trees of 2 to 6 leaves with a slider whose bounds vary, called `brake`, or with a freewheel;
 ///  * random trees with one or two elastic stops, and random graphs with one or two gears, whose support may move, and perhaps a stop;
 ///    with a mass at each node;
-///  * random trees with a slider of Stribeck's curve, with a mass at each node;
-///  * random graphs with one or two gears with losses or planetary gears, with a mass at each node;
-///  * random graphs of which some nodes turn, joined to the others by racks and screws, with a mass at each node.
+///  * random trees with a slider of Stribeck's curve;
+///  * random graphs with one or two planetary gears, or gears with losses;
+///  * random graphs of which some nodes turn, joined to the others by racks and screws.
+/// The last three have a mass at each node.
 const std::vector<Wiring>& catalogue();
 
 /// The netlist of a wiring: generic values that depend only on its number, no two of them equal. `stop` is about 1 s and forces are about

@@ -337,8 +337,8 @@ void sort_parallels(Block& block) {
   block.parts = std::move(parts);
 }
 
-/// Positions increase to the right: 1 if the first end of an element has to be to the left of the second, because it strikes there with
-/// increasing position, -1 if it has to be to the right, 0 if both will do. A stop with one bound tells.
+/// On which side of its second end the first end of an element belongs: 1 left, -1 right, 0 either. Positions increase to the right. The
+/// first end of a stop with an upper bound alone strikes the second one from the left.
 int side_of(const SceneElement& element) {
   const std::vector<Parameter>& parameters = declarations()[static_cast<std::size_t>(element.declaration)]->parameters;
   const auto given = [&](const char* name) {

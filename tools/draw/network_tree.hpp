@@ -59,7 +59,8 @@ struct Forest {
   std::vector<Mesh> meshes;
 };
 
-/// Finds the order in which a network is drawn: drives to the left, ground to the right, unless stops would strike on their far side then. Deterministic.
+/// Finds the order in which a network is drawn. Drives are to the left and ground is to the right. A row is turned round if most of its
+/// stops would strike on the wrong side. Deterministic.
 Forest forest_of(const Scene& scene);
 
 }  // namespace rheonet::draw

@@ -142,10 +142,9 @@ class Finder {
     }
   }
 
-  /// The 1, 2 or 5 times a power of ten that is next to a value, upward or downward.
-  static double round_end(double value, bool upward) {
-    const double power = std::pow(10, std::floor(std::log10(value) + 1e-9)), digit = value / power * (upward ? 1 - 1e-9 : 1 + 1e-9);
-    if (upward) return (digit <= 1 ? 1 : digit <= 2 ? 2 : digit <= 5 ? 5 : 10) * power;
+  /// The largest 1, 2 or 5 times a power of ten that is not above a value.
+  static double round_below(double value) {
+    const double above = value * (1 + 1e-9), power = std::pow(10, std::floor(std::log10(above))), digit = above / power;
     return (digit >= 5 ? 5 : digit >= 2 ? 2 : 1) * power;
   }
 
@@ -174,8 +173,8 @@ class Finder {
       knob.high = std::max(3 * v, number ? 2.0 : 0.0);
     } else if (v > 0 && (!declared || declared->lower >= 0) && declared_kind_spans_decades(declared, knob)) {
       knob.scale = AdjustableNumber::Scale::logarithmic;
-      knob.low = round_end(v / 10, false);
-      knob.high = round_end(v * 10, true);
+      knob.low = round_below(v / 10);
+      knob.high = 1 / round_below(1 / (v * 10));
     } else {
       knob.low = v < 0 || declared ? -3 * size : 0;
       knob.high = 3 * size;

@@ -16,11 +16,12 @@ export const calm = () => stepwise.matches;
 const step = 500; // Time between two pictures for users who prefer reduced motion [ms].
 const gapOfTurning = 8; // Largest gap between the plates of a rotational stop [px].
 
-// What arrows show, and whose toggle shows them.
+// The toggles that show arrows, and their arrows.
 const arrowsOf = { forces: forcesOf, energy: powersOf };
 
 export class Animation {
-  // onframe(time) is called for each picture, onmove(shiftOf) as well, with the displacements of nodes [px]. `follower`: the animation of another run, which shows the same times to the same scales.
+  // onframe(time) and onmove(shiftOf) are called for each picture; shiftOf(node) is a displacement [px]. `follower`: the animation of another
+  // run, which shows the same times to the same scales.
   constructor(host, { onframe = () => {}, onmove = () => {}, follower = null } = {}) {
     this.onframe = onframe;
     this.onmove = onmove;

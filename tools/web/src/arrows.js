@@ -1,10 +1,9 @@
-// What acts between elements and nodes, as arrows at the ends of the elements: their forces on the nodes, and the power that flows
-// into them and out of them. Each unit has one scale.
+// Arrows at the ends of elements: their forces on the nodes, and the power that flows into them or out of them. Each unit has one scale.
 import { roundBelow } from './motion-scale.js';
 
 const longest = 30; // px, of all arrows but those of short peaks
 const most = 60; // Arrows of larger forces are broken [px].
-const peak = { times: 3, rows: 0.03 }; // A peak is so many times what is exceeded in this part of the rows.
+const peak = { times: 3, rows: 0.03 }; // A peak lasts for this part of the rows at most, and is this many times larger than the rest.
 const head = 5; // px
 const belowForces = 9; // Distance of the arrows of power from those of the forces [px].
 

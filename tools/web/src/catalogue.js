@@ -2,7 +2,7 @@
 import { catalogue as ask } from './api.js';
 import { t } from './messages.js';
 
-// What most networks are made of comes first in its group.
+// The types of which most networks are made: each group begins with them.
 const basics = ['mass', 'force', 'motion', 'spring', 'dashpot', 'slider'];
 const rank = ({ type }) => (basics.includes(type.translation) ? basics.indexOf(type.translation) : basics.length);
 

@@ -1,7 +1,6 @@
 // Foldable sections with the details of a run.
 import './analysis.css';
 import { Analysis } from './analysis.js';
-import { calm } from './animation.js';
 import { explain } from './api.js';
 import { differencesOf } from './differences.js';
 import { element } from './dom.js';
@@ -17,6 +16,7 @@ export class Folds {
     this.host = host;
     this.request = request;
     this.charts = [];
+    this.fills = new Map(); // for each section: makes its content, unless it is there
     this.effects = new Analysis('effects', effectsOf);
     this.prices = new Analysis('precision', ({ prices }, charts) => (prices ? pricesOf(prices, this.isExact, inWords, charts) : []));
     this.sweep = new SweepPanel(request, load);
@@ -60,10 +60,10 @@ export class Folds {
   // Goes to the sweep, of the number with this path if one is given.
   openSweep(path) {
     const details = this.host.querySelector('[data-name="Sweep"]');
-    if (path) this.sweep.choose(path);
+    if (path) this.sweep.begin(path);
     details.open = true;
-    details.dispatchEvent(new Event('toggle')); // fills it before the page scrolls
-    details.scrollIntoView({ behavior: calm() ? 'auto' : 'smooth' });
+    this.fills.get('Sweep')(); // The event that does it comes after the page has scrolled.
+    details.scrollIntoView();
     details.querySelector('summary').focus({ preventScroll: true });
   }
 
@@ -90,6 +90,7 @@ export class Folds {
       details.append(...(content.length ? content : [element('p', { class: 'note' }, t('None.'))]));
     };
     details.addEventListener('toggle', fill);
+    this.fills.set(name, fill);
     queueMicrotask(fill);
     return details;
   }

@@ -21,6 +21,7 @@ export class Handles {
     this.pullOf = pullOf;
     this.place = 0; // which handle the Tab key reaches
     this.buttons = [];
+    this.moving = []; // the handles, with the nodes that their sides go with
     // In the capture phase, before the handler that moves the whole drawing.
     host.addEventListener('pointerdown', (event) => this.down(event), true);
     host.addEventListener('click', (event) => this.click(event));
@@ -38,7 +39,6 @@ export class Handles {
     const layer = shape('g', { class: 'handles' });
     const walls = [...svg.querySelectorAll('path.ground')].map((path) => ({ path, node: 'ground' }));
     const wires = [...svg.querySelectorAll('path.node')].map((path) => ({ path, node: path.dataset.node }));
-    this.ends = scene.ends;
     for (const { path, node } of [...walls, ...wires]) layer.append(shape('path', { class: 'wire-handle', d: path.getAttribute('d'), 'data-at': node }));
     for (const part of svg.querySelectorAll('[data-element]')) layer.append(this.overElement(part, scene));
     const seen = new Set();
@@ -54,7 +54,11 @@ export class Handles {
     layer.append(this.line);
     svg.append(layer);
     this.buttons = [...layer.querySelectorAll('[role=button]')];
-    this.moving = [...layer.querySelectorAll('[data-of], [data-at]')];
+    this.moving = [...layer.querySelectorAll('[data-of], [data-at]')].map((handle) => {
+      const { of, at } = handle.dataset;
+      const { left, right } = of ? scene.ends[of] ?? {} : { left: at, right: at };
+      return { handle, left: left ?? right, right: right ?? left, width: of ? Number(handle.getAttribute('width')) : 0, low: 0, high: 0 };
+    });
     this.rove(Math.min(this.place, this.buttons.length - 1));
     layer.addEventListener('keydown', (event) => this.key(event));
     layer.addEventListener('focusin', (event) => this.rove(this.buttons.indexOf(event.target)));
@@ -62,17 +66,13 @@ export class Handles {
 
   // Moves the handles with the drawing; shiftOf(node): how far a node is from where it is drawn [px].
   follow(shiftOf) {
-    for (const handle of this.moving ?? []) {
-      const { of, at } = handle.dataset;
-      const { left, right } = this.ends[of] ?? {};
-      const [low, high] = of ? [shiftOf(left ?? right), shiftOf(right ?? left)] : [shiftOf(at), shiftOf(at)];
-      const shift = `${low.toFixed(2)} ${high.toFixed(2)}`;
-      if (shift === (handle.dataset.shift ?? '0.00 0.00')) continue;
-      handle.dataset.shift = shift;
-      handle.style.transform = low || high ? `translateX(${low.toFixed(2)}px)` : '';
-      if (!of) continue;
-      handle.dataset.width ??= handle.getAttribute('width');
-      handle.setAttribute('width', Math.max(0, Number(handle.dataset.width) + high - low).toFixed(2));
+    for (const moving of this.moving) {
+      const { handle, left, right, width } = moving;
+      const [low, high] = [shiftOf(left), shiftOf(right)];
+      if (low === moving.low && high === moving.high) continue;
+      Object.assign(moving, { low, high });
+      handle.style.transform = `translateX(${low.toFixed(2)}px)`;
+      if (width) handle.setAttribute('width', Math.max(0, width + high - low).toFixed(2));
     }
   }
 

@@ -63,7 +63,7 @@ export class SweepPanel {
   }
 
   // Sweeps the number with this path.
-  choose(path) {
+  begin(path) {
     this.chosen.path = path;
     if (this.fields) this.build();
   }

@@ -207,8 +207,7 @@ export class TimeChart extends Chart {
     ctx.strokeStyle = styled('--event');
     ctx.lineWidth = devicePixelRatio;
     ctx.beginPath();
-    // Of events that are closer than that, a zoom shows the others.
-    const gap = 6 * devicePixelRatio;
+    const gap = 6 * devicePixelRatio; // A zoom shows the events that are closer to each other.
     let last = -Infinity;
     for (const time of this.events) {
       const x = plot.valToPos(time, 'x', true);
