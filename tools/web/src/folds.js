@@ -62,7 +62,7 @@ export class Folds {
     const details = this.host.querySelector('[data-name="Sweep"]');
     if (path) this.sweep.begin(path);
     details.open = true;
-    this.fills.get('Sweep')(); // The event that does it comes after the page has scrolled.
+    this.fills.get(details.dataset.name)(); // The event that does it comes after the page has scrolled.
     details.scrollIntoView();
     details.querySelector('summary').focus({ preventScroll: true });
   }
