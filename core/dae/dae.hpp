@@ -29,7 +29,7 @@ namespace rheonet {
 /// The equations of a network in one set of modes, F(t, y, y') = 0, of index 1 or less for any wiring. Linear in y', with a
 /// matrix that is constant except for branches held at rest in parallel (SlidingModes).
 ///
-/// Sliders add no equations: those that stick join their ends, those that slip are constant forces.
+/// Sliders add no equations: those that stick join their ends, those that slip are given forces.
 ///
 /// Unknowns y, in this order:
 ///   v  velocity of a massive or viscous node; of a floating node relative to its group's reference     [m/s]

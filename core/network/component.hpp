@@ -25,7 +25,7 @@ class SwitchedFunction;
 enum class Role {
   deflection,  ///< Force from a deflection p of its own: f = force(p), p' = w - creep(f). Springs and all laws with a memory.
   rate,        ///< Force from the relative velocity: f = force(w), or w = rate(f). Dashpots.
-  slip,        ///< Sticks under any force up to a bound, otherwise slips at a constant force. Ideal sliders.
+  slip,        ///< Sticks under any force up to a bound, otherwise slips at this bound. Ideal sliders.
   mass,        ///< Inertia of a node.
   inerter,     ///< f = b w'.
   train,       ///< A transmission that is an equation between the velocities of up to three nodes: SceneElement::row.
