@@ -255,17 +255,21 @@ test('frozen curves have the colours of their runs everywhere, in an export too'
   });
   const legend = await page.locator('.plots .chart').first().locator('.u-label').allTextContents();
   const now = legend.filter((name) => name.startsWith('now '));
-  assert.ok(legend.some((name) => name.startsWith('first ')) && legend.some((name) => name.startsWith('B = 2 N·s/m ')), legend.join());
+  assert.ok(legend.some((name) => name.startsWith('as at first ')) && legend.some((name) => name.startsWith('B = 2 N·s/m ')), legend.join());
   const colours = await page.locator('.plots .chart .u-series').evaluateAll((all) => all.map((series) =>
     [series.querySelector('.u-label').textContent.split(' ')[0], getComputedStyle(series.querySelector('.u-marker')).borderTopColor]).filter(([name]) => name !== 'time'));
   const of = (name) => [...new Set(colours.filter(([run]) => run === name).map(([, colour]) => colour))];
-  assert.deepEqual([of('now'), of('first'), of('B')], [['rgb(0, 114, 178)'], ['rgb(213, 94, 0)'], ['rgb(0, 158, 115)']]);
+  assert.deepEqual([of('now'), of('as'), of('B')], [['rgb(0, 114, 178)'], ['rgb(0, 158, 115)'], ['rgb(180, 80, 138)']]);
   const svg = await exported(page);
   assert.ok(svg.includes(`>${now[0]}<`), now[0]);
-  for (const colour of ['#0072b2', '#d55e00', '#009e73']) assert.ok(svg.includes(`stroke="${colour}"`), colour);
-  assert.equal(/stroke="#(cc79a7|56b4e9|e69f00)"/.test(svg), false);
+  for (const colour of ['#0072b2', '#009e73', '#b4508a']) assert.ok(svg.includes(`stroke="${colour}"`), colour);
+  assert.equal(/stroke="#(d55e00|56b4e9|e69f00)"/.test(svg), false);
+  await page.locator('button', { hasText: 'Compare' }).first().click();
+  await page.waitForFunction(() => document.querySelectorAll('.plots .u-label').length && [...document.querySelectorAll('.plots .u-label')].some((label) => label.textContent.startsWith('B ')));
+  const compared = await page.locator('.plots .chart .u-series', { hasText: /^as at first/ }).first().evaluate((series) => getComputedStyle(series.querySelector('.u-marker')).borderTopColor);
+  assert.equal(compared, 'rgb(0, 158, 115)');
   await page.locator('button.thaw').click();
-  assert.equal(await page.locator('.u-label', { hasText: 'first' }).count(), 0);
+  assert.equal(await page.locator('.u-label', { hasText: 'as at first' }).count(), 0);
   await close();
 });
 

@@ -236,7 +236,7 @@ export class PlotPanel {
   // Where there are several runs the colour tells them apart, everywhere, and the dashes tell their records apart; of a single run the
   // colour tells its records apart.
   look(run, record) {
-    return this.runs.length > 1 ? { style: run, dash: record } : { style: record, dash: Math.floor(record / 7) };
+    return this.runs.length > 1 ? { style: this.runs[run].colour ?? run, dash: record } : { style: record, dash: Math.floor(record / 7) };
   }
 
   // The records that are shown, by default those that the scene draws, or the first of each quantity that the scene itself records.

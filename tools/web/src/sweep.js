@@ -103,7 +103,7 @@ export class SweepPanel {
       element('label', {}, `${t('number')} `, choose('path', t('number'), this.knobs.map(({ path, group, name }) => [path, group === 'parameters' ? name : path]), knob.path)),
       type('low', t('from'), chosen.low ?? String(knob.low)), type('high', t('to'), chosen.high ?? String(knob.high)), element('span', { class: 'unit' }, knob.unit),
       type('count', t('runs'), chosen.count),
-      element('label', {}, log, ` ${t('in equal factors')}`),
+      element('label', {}, log, ` ${t('logarithmic')}`),
       element('label', {}, `${t('measure')} `, choose('measure', t('measure'), Object.entries(measures).map(([key, { label }]) => [key, label]), chosen.measure ?? 'magnitude')),
       this.measure.isOfTwo ? [other, element('span', {}, '–'), record] : record,
       (this.button = element('button', { type: 'submit' }, t('Run the sweep'))),

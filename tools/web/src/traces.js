@@ -3,7 +3,8 @@ import { element } from './dom.js';
 import { withUnits } from './formulas.js';
 import { t } from './messages.js';
 
-const most = 6;
+const most = 5;
+const firstColour = 2; // After those of two variants: a frozen curve keeps its colour when a comparison begins.
 
 export class Traces {
   // onchange(): the plots are to be drawn anew.
@@ -23,7 +24,7 @@ export class Traces {
 
   freeze() {
     if (!this.offered || this.freezeButton.disabled) return;
-    this.all.push({ ...this.offered, label: this.nameOf(this.offered) });
+    this.all.push({ ...this.offered, label: this.nameOf(this.offered), colour: firstColour + this.all.length });
     this.show();
   }
 
@@ -32,7 +33,7 @@ export class Traces {
     const before = new Map(first.map(({ group, name, value }) => [`${group}.${name}`, value]));
     const changed = data.scene.sliders.filter(({ group, name, value }) => before.has(`${group}.${name}`) && before.get(`${group}.${name}`) !== value);
     const named = changed.slice(0, 2).map(({ group, name, value, unit }) => `${group === 'parameters' ? '' : `${group} `}${name} = ${withUnits(`${value} ${unit}`).trim()}`).join(', ');
-    const wanted = named ? `${named}${changed.length > 2 ? ' …' : ''}` : 'first';
+    const wanted = named ? `${named}${changed.length > 2 ? ' …' : ''}` : t('as at first');
     const taken = this.all.filter(({ label }) => label === wanted || label.startsWith(`${wanted} (`)).length;
     return taken ? `${wanted} (${taken + 1})` : wanted;
   }
