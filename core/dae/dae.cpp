@@ -23,10 +23,10 @@ bool any_follows_time(const Network& network, const Structure& structure, const 
     const Branch& b = structure.sliders[k];
     return b.a != b.b && (at_once(b.a) || at_once(b.b));
   };
-  const auto turned = [&](const Structure::Tied& tied) {
-    return std::any_of(tied.terms.begin(), tied.terms.end(), [&](const Structure::Tied::Term& term) { return moves(term.node); });
+  const auto turned = [&](const Structure::TrainEquation& equation) {
+    return std::any_of(equation.terms.begin(), equation.terms.end(), [&](const Structure::TrainEquation::Term& term) { return moves(term.node); });
   };
-  return std::any_of(structure.tied.begin(), structure.tied.end(), turned) ||
+  return std::any_of(structure.train_equations.begin(), structure.train_equations.end(), turned) ||
          std::any_of(structure.rates.begin(), structure.rates.end(), pulled) ||
          std::any_of(varying.begin(), varying.end(), rubbed) ||
          std::any_of(network.forces.begin(), network.forces.end(), pushed);

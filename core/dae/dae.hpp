@@ -39,7 +39,7 @@ namespace rheonet {
 ///   z  state of a block                                                                                 [its output]
 /// Equations, each in the row of the unknown that it stands for:
 ///   v  balance of forces at the node:  sum f + m v' - applied = 0;  of the pivot of a train: the equation between velocities, while the
-///      other nodes of the train share the balance of its pivot (Structure::Tied)
+///      other nodes of the train share the balance of its pivot (Structure::TrainEquation)
 ///   p  of a tree branch: balance of its group as a whole;  else the loop that the branch closes:
 ///      sum +-(p' + creep) + sum +-v = 0
 ///   f  v_a - v_b - rate(f) = 0

@@ -13,7 +13,7 @@ struct FiredGuards {
   std::vector<int> starts;  ///< Deflection branches held at rest that begin to move in their law's direction.
   std::vector<int> turns;   ///< Deflection branches that have stopped: they rest, or go on in their law's direction.
   std::vector<int> settles; ///< Sliders that have come into contact, or are, and whose further hops are too small to matter: they stay.
-  std::vector<int> slow;    ///< Sliders without friction whose ends move against each other more slowly than the steps resolve.
+  std::vector<int> within_band;  ///< Sliders without friction whose ends move against each other more slowly than the steps resolve.
   std::vector<int> rests;   ///< Deflection branches held at rest in parallel with a slider at its bound, which sticks now.
 };
 

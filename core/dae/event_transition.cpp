@@ -110,7 +110,7 @@ EventChange EventTransition::cross(double t, double horizon, bool stepped, const
   const bool delayed = take_delayed_steps(net_, t, state, change);
   // A brake that closes finds its ends at rest if they move more slowly than is resolved: no error of steps makes it slip.
   FiredGuards stopped = fired;
-  for (const int k : fired.slow) {
+  for (const int k : fired.within_band) {
     if (bounds_.sliding(at(k), modes.slider[at(k)]) > 0) stopped.sliders.push_back(k);
   }
   impacts_.resolve(t, steps.momentum, stopped, modes, state, change);

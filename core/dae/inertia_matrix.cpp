@@ -38,21 +38,21 @@ InertiaMatrix::InertiaMatrix(const Network& network, const Structure& structure)
     entries_.emplace_back(i, j, -inertance);
     entries_.emplace_back(j, i, -inertance);
   }
-  for (const Structure::Tied& tied : structure.tied) {
-    row(tied.pivot);
-    for (const auto& [node, factor] : tied.terms) row(node);
+  for (const Structure::TrainEquation& equation : structure.train_equations) {
+    row(equation.pivot);
+    for (const auto& [node, factor] : equation.terms) row(node);
   }
-  for (std::size_t k = 0; k < structure.tied.size(); ++k) {
+  for (std::size_t k = 0; k < structure.train_equations.size(); ++k) {
     const int r = static_cast<int>(nodes_.size() + k);
-    const Structure::Tied& tied = structure.tied[k];
-    entries_.emplace_back(r, row_[at(tied.pivot)], 1);
-    for (const auto& [node, factor] : tied.terms) {
+    const Structure::TrainEquation& equation = structure.train_equations[k];
+    entries_.emplace_back(r, row_[at(equation.pivot)], 1);
+    for (const auto& [node, factor] : equation.terms) {
       if (row_[at(node)] >= 0) entries_.emplace_back(r, row_[at(node)], factor);
     }
-    const std::array<NodeId, 3>& nodes = network.trains[at(tied.train)].node;
+    const std::array<NodeId, 3>& nodes = network.trains[at(equation.train)].node;
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       const int place = row_[at(structure.rigid[at(nodes[i])])];
-      if (place >= 0) train_entries_.push_back({place, r, at(tied.train), i});
+      if (place >= 0) train_entries_.push_back({place, r, at(equation.train), i});
     }
   }
   factors_ = std::make_unique<Factors>();
@@ -62,7 +62,7 @@ InertiaMatrix::InertiaMatrix(const Network& network, const Structure& structure)
 void InertiaMatrix::take_train_forces(const std::vector<std::array<double, 3>>& train_forces) {
   std::vector<Eigen::Triplet<double>> entries = entries_;
   for (const TrainEntry& e : train_entries_) entries.emplace_back(e.row, e.column, train_forces[e.train][e.end]);
-  const auto size = static_cast<Eigen::Index>(nodes_.size() + structure_.tied.size());
+  const auto size = static_cast<Eigen::Index>(nodes_.size() + structure_.train_equations.size());
   Eigen::SparseMatrix<double> matrix(size, size);
   matrix.setFromTriplets(entries.begin(), entries.end());
   factors_->of.compute(matrix);
@@ -71,8 +71,8 @@ void InertiaMatrix::take_train_forces(const std::vector<std::array<double, 3>>& 
 InertiaMatrix::~InertiaMatrix() = default;
 
 void InertiaMatrix::accelerate(const std::vector<double>& force, std::vector<double>& acceleration, std::vector<double>& train_force) const {
-  const std::vector<Structure::Tied>& tied = structure_.tied;
-  Eigen::VectorXd right(static_cast<Eigen::Index>(nodes_.size() + tied.size()));
+  const std::vector<Structure::TrainEquation>& equations = structure_.train_equations;
+  Eigen::VectorXd right(static_cast<Eigen::Index>(nodes_.size() + equations.size()));
   for (std::size_t i = 0; i < nodes_.size(); ++i) right[static_cast<Eigen::Index>(i)] = force[at(nodes_[i])];
   for (std::size_t k = 0; k < structure_.inerters.size(); ++k) {
     const Branch& b = structure_.inerters[k];
@@ -82,15 +82,15 @@ void InertiaMatrix::accelerate(const std::vector<double>& force, std::vector<dou
       }
     }
   }
-  for (std::size_t k = 0; k < tied.size(); ++k) {
+  for (std::size_t k = 0; k < equations.size(); ++k) {
     double& given = right[static_cast<Eigen::Index>(nodes_.size() + k)] = 0;
-    for (const auto& [node, factor] : tied[k].terms) {
+    for (const auto& [node, factor] : equations[k].terms) {
       if (row_[at(node)] < 0) given -= factor * acceleration[at(node)];
     }
   }
   const Eigen::VectorXd solved = factors_->of.solve(right);
   for (std::size_t i = 0; i < nodes_.size(); ++i) acceleration[at(nodes_[i])] = solved[static_cast<Eigen::Index>(i)];
-  for (std::size_t k = 0; k < tied.size(); ++k) train_force[at(tied[k].train)] = solved[static_cast<Eigen::Index>(nodes_.size() + k)];
+  for (std::size_t k = 0; k < equations.size(); ++k) train_force[at(equations[k].train)] = solved[static_cast<Eigen::Index>(nodes_.size() + k)];
 }
 
 }  // namespace rheonet

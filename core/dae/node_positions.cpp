@@ -9,9 +9,9 @@ namespace rheonet {
 
 namespace {
 
-double sum_of_positions(const Structure::Tied& tied, const std::vector<double>& position) {
-  double sum = position[at(tied.pivot)];
-  for (const auto& [node, factor] : tied.terms) sum += factor * position[at(node)];
+double sum_of_positions(const Structure::TrainEquation& equation, const std::vector<double>& position) {
+  double sum = position[at(equation.pivot)];
+  for (const auto& [node, factor] : equation.terms) sum += factor * position[at(node)];
   return sum;
 }
 
@@ -25,7 +25,7 @@ void NodePositions::enter(const State& state, double* y) {
   }
   const std::vector<double> place = places(state);
   for (const NodeId node : positions_.order) {
-    if (const int r = positions_.of[at(node)].tied; r >= 0) tied_sum_[at(r)] = sum_of_positions(structure_.tied[at(r)], place);
+    if (const int r = positions_.of[at(node)].train_equation; r >= 0) tied_sum_[at(r)] = sum_of_positions(structure_.train_equations[at(r)], place);
   }
   for (const NodeId node : positions_.integrated) {
     y[index_.position[at(node)]] = state.position[at(node)] - place[at(positions_.of[at(node)].parent)];
@@ -61,12 +61,12 @@ void NodePositions::evaluate(const std::vector<double>& p, const double* y, std:
       position = parent + x.sign * (p[at(x.branch)] + offset_[at(x.branch)]);
     } else if (x.slider >= 0) {
       position = parent + x.sign * slider_shift_[at(x.slider)];
-    } else if (x.tied >= 0) {
-      const Structure::Tied& tied = structure_.tied[at(x.tied)];
-      const auto own = std::find_if(tied.terms.begin(), tied.terms.end(), [&](const Structure::Tied::Term& term) { return term.node == node; });
-      const double factor = own == tied.terms.end() ? 1 : own->factor;
+    } else if (x.train_equation >= 0) {
+      const Structure::TrainEquation& equation = structure_.train_equations[at(x.train_equation)];
+      const auto own = std::find_if(equation.terms.begin(), equation.terms.end(), [&](const Structure::TrainEquation::Term& term) { return term.node == node; });
+      const double factor = own == equation.terms.end() ? 1 : own->factor;
       position = 0;
-      position = (tied_sum_[at(x.tied)] - sum_of_positions(tied, positions)) / factor;
+      position = (tied_sum_[at(x.train_equation)] - sum_of_positions(equation, positions)) / factor;
     }
   }
 }

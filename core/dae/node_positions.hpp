@@ -15,7 +15,7 @@ class NodePositions {
   /// All must outlive this.
   NodePositions(const Network& network, const Structure& structure, const Inputs& inputs, const Positions& positions, const UnknownIndices& index)
       : network_(network), structure_(structure), inputs_(inputs), positions_(positions), index_(index),
-        slider_shift_(network.sliders.size(), 0), tied_sum_(structure.tied.size(), 0) {}
+        slider_shift_(network.sliders.size(), 0), tied_sum_(structure.train_equations.size(), 0) {}
 
   /// Counts from this state, under the inputs last evaluated. Writes the unknowns of positions that are integrated.
   void enter(const State& state, double* y);

@@ -9,7 +9,7 @@
 namespace rheonet {
 
 void PivotRows::reserve(JacobianEntries& jacobian) {
-  const std::vector<Structure::Tied>& equations = slip_.equations();
+  const std::vector<Structure::TrainEquation>& equations = slip_.equations();
   if (equations.empty()) return;
   std::map<int, std::size_t> of_row;  // the equation of each pivot's row
   for (std::size_t r = 0; r < equations.size(); ++r) of_row.emplace(index_.velocity[at(equations[r].pivot)], r);
@@ -21,7 +21,7 @@ void PivotRows::reserve(JacobianEntries& jacobian) {
       jacobian.put_back(mass);
       continue;
     }
-    const std::vector<Structure::Tied::Term>& shares = equations[found->second].shares;
+    const std::vector<Structure::TrainEquation::Term>& shares = equations[found->second].shares;
     for (std::size_t i = 0; i < shares.size(); ++i) {
       shared_masses_.push_back({builder.ticket(index_.velocity[at(shares[i].node)], place.column), found->second, i, mass.value});
     }
@@ -32,7 +32,7 @@ void PivotRows::reserve(JacobianEntries& jacobian) {
   }
   for (const auto& [from, column] : places) {
     const std::size_t r = of_row.at(from);
-    const std::vector<Structure::Tied::Term>& shares = equations[r].shares;
+    const std::vector<Structure::TrainEquation::Term>& shares = equations[r].shares;
     for (std::size_t i = 0; i < shares.size(); ++i) {
       shared_entries_.push_back({builder.ticket(from, column), builder.ticket(index_.velocity[at(shares[i].node)], column), r, i});
     }
@@ -54,14 +54,14 @@ void PivotRows::take(const Pattern& pattern, const std::vector<int>& entry) {
   }
   for (JacobianEntries::Constant& c : tied_) c.entry = entry[at(c.entry)];
   std::vector<char> of_pivot(at(pattern.size), 0);
-  for (const Structure::Tied& tied : slip_.equations()) of_pivot[at(index_.velocity[at(tied.pivot)])] = 1;
+  for (const Structure::TrainEquation& equation : slip_.equations()) of_pivot[at(index_.velocity[at(equation.pivot)])] = 1;
   for (int e = 0; e < pattern.entries(); ++e) {
     if (of_pivot[at(pattern.row[at(e)])]) pivot_entries_.push_back(e);
   }
 }
 
 void PivotRows::tie(double* values) const {
-  const std::vector<Structure::Tied>& equations = slip_.equations();
+  const std::vector<Structure::TrainEquation>& equations = slip_.equations();
   for (const SharedEntry& s : shared_entries_) values[s.to] -= equations[s.equation].shares[s.share].factor * values[s.from];
   for (const int entry : pivot_entries_) values[entry] = 0;
   for (const JacobianEntries::Constant& c : tied_) values[c.entry] += c.value;

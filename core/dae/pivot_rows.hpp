@@ -8,7 +8,7 @@
 
 namespace rheonet {
 
-/// The Jacobian's rows of the pivots of trains (Structure::Tied). Entries of their balances are shared by the rows of the other nodes; then
+/// The Jacobian's rows of the pivots of trains (Structure::TrainEquation). Entries of their balances are shared by the rows of the other nodes; then
 /// they make way for the equations of the trains.
 class PivotRows {
  public:

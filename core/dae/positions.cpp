@@ -52,14 +52,14 @@ class PositionFinder {
       if (structure_.stuck[k] && needed_[at(b.a)] && needed_[at(b.b)]) list(stuck_, b, static_cast<int>(k));
     }
     for (const Branch& b : network_.rates) meet(b);
-    for (std::size_t r = 0; r < structure_.tied.size(); ++r) {
-      for (const NodeId node : nodes_of(structure_.tied[r])) tied_[at(node)].push_back(static_cast<int>(r));
+    for (std::size_t r = 0; r < structure_.train_equations.size(); ++r) {
+      for (const NodeId node : nodes_of(structure_.train_equations[r])) tied_[at(node)].push_back(static_cast<int>(r));
     }
   }
 
-  static std::vector<NodeId> nodes_of(const Structure::Tied& tied) {
-    std::vector<NodeId> nodes{tied.pivot};
-    for (const Structure::Tied::Term& term : tied.terms) nodes.push_back(term.node);
+  static std::vector<NodeId> nodes_of(const Structure::TrainEquation& equation) {
+    std::vector<NodeId> nodes{equation.pivot};
+    for (const Structure::TrainEquation::Term& term : equation.terms) nodes.push_back(term.node);
     return nodes;
   }
 
@@ -67,10 +67,10 @@ class PositionFinder {
 
   /// The node of a train whose position follows from those of the others, all of which are reached. Beside positions that are functions of
   /// time only one: of two that are integrated, the sum might be small beside their errors. -1 if there is none.
-  NodeId last_of(int tied, NodeId& parent) const {
+  NodeId last_of(int equation, NodeId& parent) const {
     NodeId last = -1;
     parent = ground;
-    for (const NodeId node : nodes_of(structure_.tied[at(tied)])) {
+    for (const NodeId node : nodes_of(structure_.train_equations[at(equation)])) {
       if (!reached_[at(node)]) {
         if (last >= 0 || structure_.kind[at(node)] == Kind::known || !needed_[at(node)]) return -1;
         last = node;
@@ -90,11 +90,11 @@ class PositionFinder {
       else integrate_alone(node);
     }
     // Locked trains, whose equations have no other node.
-    for (std::size_t r = 0; r < structure_.tied.size(); ++r) {
+    for (std::size_t r = 0; r < structure_.train_equations.size(); ++r) {
       NodeId parent = ground;
       const NodeId last = last_of(static_cast<int>(r), parent);
       if (last < 0) continue;
-      result_.of[at(last)] = {.tied = static_cast<int>(r), .parent = parent};
+      result_.of[at(last)] = {.train_equation = static_cast<int>(r), .parent = parent};
       reach(last);
     }
     for (const Blocks::Sensor& sensor : network_.blocks.sensors) {
@@ -130,12 +130,12 @@ class PositionFinder {
         result_.of[at(other)] = {.sign = b.a == other ? 1.0 : -1.0, .slider = slider, .parent = from};
         order_.push_back(other);
       }
-      for (const int tied : tied_[at(from)]) {
+      for (const int equation : tied_[at(from)]) {
         NodeId parent = ground;
-        const NodeId last = last_of(tied, parent);
+        const NodeId last = last_of(equation, parent);
         if (last < 0) continue;
         reached_[at(last)] = 1;
-        result_.of[at(last)] = {.tied = tied, .parent = parent};
+        result_.of[at(last)] = {.train_equation = equation, .parent = parent};
         order_.push_back(last);
       }
     }

@@ -14,7 +14,7 @@ namespace rheonet {
 struct Position {
   double sign = 1;
   int branch = -1, slider = -1;
-  int tied = -1;  ///< index into Structure::tied
+  int train_equation = -1;  ///< index into Structure::train_equations
   NodeId parent = ground;
   bool integrated = false;
 };

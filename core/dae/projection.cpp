@@ -242,8 +242,8 @@ class Consistency::Projection {
   void finish() {
     // A velocity that is round-off becomes 0. A mass keeps the smallest velocity, and so do the nodes of a train.
     const auto tied = [&](std::size_t row) {
-      const std::vector<Structure::Tied>& trains = dae_.structure().tied;
-      return std::any_of(trains.begin(), trains.end(), [&](const Structure::Tied& train) { return dae_.indices().velocity[at(train.pivot)] == static_cast<int>(row); });
+      const std::vector<Structure::TrainEquation>& trains = dae_.structure().train_equations;
+      return std::any_of(trains.begin(), trains.end(), [&](const Structure::TrainEquation& train) { return dae_.indices().velocity[at(train.pivot)] == static_cast<int>(row); });
     };
     for (std::size_t i = 0; i < n_; ++i) {
       if (c_.kind_[i] == velocity && !differential(i) && !tied(i) && std::abs(y_[i]) <= numerics::equal_velocities * fastest_) y_[i] = 0;

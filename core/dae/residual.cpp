@@ -110,11 +110,11 @@ void Dae::residual(double t, const double* y, const double* yp, double* r) {
   }
   loops_.residual(v_, view_.creep, yp, r);
   for (std::size_t k = 0; k < index_.block.size(); ++k) r[index_.block[k]] = yp[index_.block[k]] - inputs_->blocks().rate(k);
-  for (const Structure::Tied& tied : slip_.equations()) {
-    double& row = r[index_.velocity[at(tied.pivot)]];
-    double sum = v_[at(tied.pivot)];
-    for (const auto& [node, factor] : tied.terms) sum += factor * v_[at(node)];
-    for (const auto& [node, share] : tied.shares) r[index_.velocity[at(node)]] -= share * row;
+  for (const Structure::TrainEquation& equation : slip_.equations()) {
+    double& row = r[index_.velocity[at(equation.pivot)]];
+    double sum = v_[at(equation.pivot)];
+    for (const auto& [node, factor] : equation.terms) sum += factor * v_[at(node)];
+    for (const auto& [node, share] : equation.shares) r[index_.velocity[at(node)]] -= share * row;
     row = sum;
   }
   sliding_modes_.residual(view_.p, yp, r);
@@ -168,10 +168,10 @@ void Dae::magnitudes(double* r) const {
     }
   }
   loops_.add_magnitudes(v_, r);
-  for (const Structure::Tied& tied : structure_->tied) {
-    double& row = r[index_.velocity[at(tied.pivot)]];
-    row = std::abs(v_[at(tied.pivot)]);
-    for (const auto& [node, factor] : tied.terms) row += std::abs(factor * v_[at(node)]);
+  for (const Structure::TrainEquation& equation : structure_->train_equations) {
+    double& row = r[index_.velocity[at(equation.pivot)]];
+    row = std::abs(v_[at(equation.pivot)]);
+    for (const auto& [node, factor] : equation.terms) row += std::abs(factor * v_[at(node)]);
   }
 }
 
@@ -280,10 +280,10 @@ void Dae::time_derivative(double* r) const {
     add(network_->forces[k].a, -inputs_->force_rate[k]);
     add(network_->forces[k].b, inputs_->force_rate[k]);
   }
-  for (const Structure::Tied& tied : structure_->tied) {
-    double& row = r[index_.velocity[at(tied.pivot)]];
+  for (const Structure::TrainEquation& equation : structure_->train_equations) {
+    double& row = r[index_.velocity[at(equation.pivot)]];
     row = 0;
-    for (const auto& [node, factor] : tied.terms) row += factor * a_[at(node)];
+    for (const auto& [node, factor] : equation.terms) row += factor * a_[at(node)];
   }
 }
 

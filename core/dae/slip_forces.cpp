@@ -16,7 +16,7 @@ SlipForces::SlipForces(const Network& network, const Structure& structure, const
       b_drives_(network.trains.size(), 0),
       loss_lines_(network.trains.size()),
       train_forces_(structure.train_forces),
-      equations_(structure.tied) {
+      equations_(structure.train_equations) {
   for (std::size_t k = 0; k < network.sliders.size(); ++k) {
     if (!structure.stuck[k] && !network.sliders[k].varying.empty()) varying_.push_back(k);
   }

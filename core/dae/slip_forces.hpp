@@ -40,7 +40,7 @@ class SlipForces {
   /// For each train: factors of its force in the balances of its nodes, as in Structure, with the present losses.
   const std::vector<std::array<double, 3>>& train_forces() const { return train_forces_; }
   /// Equations of the trains, with the present shares.
-  const std::vector<Structure::Tied>& equations() const { return equations_; }
+  const std::vector<Structure::TrainEquation>& equations() const { return equations_; }
   /// Some losses depend on the speed: factors and shares change between events.
   bool shares_vary() const { return train_shares_.has_value(); }
   /// Derivatives of the shares by a varying parameter of a slider that stands for losses.
@@ -59,7 +59,7 @@ class SlipForces {
   std::optional<TrainShares> train_shares_;   ///< If some depend on the speed.
   std::vector<Loss::Line> loss_lines_;        ///< For each train whose losses slip.
   std::vector<std::array<double, 3>> train_forces_;
-  std::vector<Structure::Tied> equations_;
+  std::vector<Structure::TrainEquation> equations_;
 };
 
 }  // namespace rheonet

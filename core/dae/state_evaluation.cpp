@@ -92,8 +92,8 @@ void Dae::view_velocities(const double* yp) {
   const auto flow = [&](int j) { return sliding_modes_.moving()[at(j)] * (yp[index_.deflection[at(j)]] + view_.creep[at(j)]); };
   for (const Structure::Group& group : structure_->groups) {
     double base = 0;
-    if (group.tie >= 0) {
-      const Structure::Loop& sum = structure_->ties[at(group.tie)].velocity;
+    if (group.indeterminate >= 0) {
+      const Structure::Loop& sum = structure_->indeterminate[at(group.indeterminate)].velocity;
       for (const Structure::Term& x : sum.flows) base -= x.sign * flow(x.index);
       for (const Structure::Term& x : sum.velocities) base -= x.sign * v_[at(x.index)];
     } else {

@@ -26,7 +26,7 @@ namespace {
 /// Trains whose forces are open: those without an equation of their own, as it follows from others, and all that share a node with such a train.
 std::vector<char> open_trains(const Network& network, const Structure& structure) {
   std::vector<char> open(network.trains.size(), 1);
-  for (const Structure::Tied& tied : structure.tied) open[at(tied.train)] = 0;
+  for (const Structure::TrainEquation& equation : structure.train_equations) open[at(equation.train)] = 0;
   DisjointSets together(structure.kind.size());
   const auto first_free = [&](const Network::Train& train) {
     NodeId first = -1;

@@ -106,7 +106,7 @@ UnknownIndices number_unknowns(const Network& network, const Structure& structur
   for (std::size_t n = 0; n < network.nodes(); ++n) {
     if (structure.group[n] < 0) continue;
     const Structure::Group& group = structure.groups[at(structure.group[n])];
-    if (group.tie < 0) index.group_balance[n] = index.deflection[at(group.tree_branch)];
+    if (group.indeterminate < 0) index.group_balance[n] = index.deflection[at(group.tree_branch)];
   }
   return index;
 }

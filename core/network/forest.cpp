@@ -73,18 +73,18 @@ class Forest {
     }
   }
 
-  /// Grows trees from the nodes outside all groups; then ties groups that no tree reaches and grows from these.
+  /// Grows trees from the nodes outside all groups; then starts at groups that no tree reaches, whose motion is indeterminate.
   void grow() {
     for (std::size_t g = 0; g < branches_of_.size(); ++g) {
       for (int j : branches_of_[g]) attach_from_outside(j);
     }
     spread();
     while (order_.size() < s_.groups.size()) {
-      tie();
+      start_at_indeterminate_groups();
       spread();
     }
     renumber();
-    if (!s_.ties.empty()) solve_ties();
+    if (!s_.indeterminate.empty()) solve_indeterminate_groups();
   }
 
  private:
@@ -140,27 +140,27 @@ class Forest {
     return members;
   }
 
-  void tie() {
+  void start_at_indeterminate_groups() {
     const auto lost = std::find(reached_.begin(), reached_.end(), 0);
     const int root = static_cast<int>(lost - reached_.begin());
     const std::vector<int> members = piece(root);
-    Structure::Tie tie;
+    Structure::IndeterminateGroups set;
     for (int g : members) {
-      for (NodeId node : s_.groups[at(g)].nodes) tie.nodes.push_back(node);
+      for (NodeId node : s_.groups[at(g)].nodes) set.nodes.push_back(node);
     }
     std::vector<char> inside(s_.kind.size(), 0);
-    for (NodeId node : tie.nodes) inside[at(node)] = 1;
+    for (NodeId node : set.nodes) inside[at(node)] = 1;
     for (const Weak& w : weak_) {
-      if (inside[at(w.a)] != inside[at(w.b)]) tie.elements.push_back(w.element);
+      if (inside[at(w.a)] != inside[at(w.b)]) set.elements.push_back(w.element);
     }
     for (std::size_t n = 0; n < inside.size(); ++n) {
-      if (s_.kind[n] == Kind::joined && inside[at(s_.rigid[n])]) tie.nodes.push_back(static_cast<NodeId>(n));
+      if (s_.kind[n] == Kind::joined && inside[at(s_.rigid[n])]) set.nodes.push_back(static_cast<NodeId>(n));
     }
-    if (tie.elements.empty()) report_undefined(network_, s_, members);
+    if (set.elements.empty()) report_undefined(network_, s_, members);
     reached_[at(root)] = 1;
-    s_.groups[at(root)].tie = static_cast<int>(s_.ties.size());
+    s_.groups[at(root)].indeterminate = static_cast<int>(s_.indeterminate.size());
     s_.groups[at(root)].depth = 1;
-    s_.ties.push_back(std::move(tie));
+    s_.indeterminate.push_back(std::move(set));
     queue_.push(root);
   }
 
@@ -180,7 +180,7 @@ class Forest {
     s_.groups = std::move(sorted);
   }
 
-  void solve_ties();
+  void solve_indeterminate_groups();
 
   const Network& network_;
   Structure& s_;
@@ -191,9 +191,9 @@ class Forest {
   std::queue<int> queue_;
 };
 
-/// Terms by deflection branch, by node and by tie.
+/// Terms by deflection branch, by node and by set of indeterminate groups.
 struct Sum {
-  std::map<int, double> flows, velocities, ties;
+  std::map<int, double> flows, velocities, sets;
 
   void add(const Structure::Loop& loop, double factor) {
     for (const Structure::Term& x : loop.flows) flows[x.index] += factor * x.sign;
@@ -221,8 +221,8 @@ Sum difference(const Structure& s, NodeId a, NodeId b) {
   // velocity(node) = v_node + base(group), base(group) = base(parent's group) + v_parent - v_node' + sign (p' + creep)
   const auto climb = [&](int group, double sign) {
     const Structure::Group& g = s.groups[at(group)];
-    if (g.tie >= 0) {
-      sum.ties[g.tie] -= sign;
+    if (g.indeterminate >= 0) {
+      sum.sets[g.indeterminate] -= sign;
       return -1;
     }
     sum.velocities[g.parent] -= sign;
@@ -244,31 +244,31 @@ Sum difference(const Structure& s, NodeId a, NodeId b) {
   return sum;
 }
 
-/// Least-squares condition of each tie: the relative velocities of the elements that lead out of it sum to 0.
-void Forest::solve_ties() {
-  const auto count = static_cast<Eigen::Index>(s_.ties.size());
-  std::vector<int> tie_of(s_.kind.size(), -1);
-  for (std::size_t k = 0; k < s_.ties.size(); ++k) {
-    for (NodeId node : s_.ties[k].nodes) tie_of[at(node)] = static_cast<int>(k);
+/// Least-squares condition of each set of indeterminate groups: the relative velocities of the elements that lead out of it sum to 0.
+void Forest::solve_indeterminate_groups() {
+  const auto count = static_cast<Eigen::Index>(s_.indeterminate.size());
+  std::vector<int> set_of(s_.kind.size(), -1);
+  for (std::size_t k = 0; k < s_.indeterminate.size(); ++k) {
+    for (NodeId node : s_.indeterminate[k].nodes) set_of[at(node)] = static_cast<int>(k);
   }
   Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(count, count);
-  std::vector<Sum> rest(s_.ties.size());
+  std::vector<Sum> rest(s_.indeterminate.size());
   for (const Weak& w : weak_) {
-    const int ta = tie_of[at(w.a)], tb = tie_of[at(w.b)];
+    const int ta = set_of[at(w.a)], tb = set_of[at(w.b)];
     if (ta == tb) continue;
     const Sum term = difference(s_, w.a, w.b);
-    for (const auto& [tie, sign] : {std::pair{ta, 1.0}, std::pair{tb, -1.0}}) {
-      if (tie < 0) continue;
-      for (auto [j, x] : term.flows) rest[at(tie)].flows[j] += sign * x;
-      for (auto [node, x] : term.velocities) rest[at(tie)].velocities[node] += sign * x;
-      for (auto [other, x] : term.ties) matrix(tie, other) += sign * x;
+    for (const auto& [set, sign] : {std::pair{ta, 1.0}, std::pair{tb, -1.0}}) {
+      if (set < 0) continue;
+      for (auto [j, x] : term.flows) rest[at(set)].flows[j] += sign * x;
+      for (auto [node, x] : term.velocities) rest[at(set)].velocities[node] += sign * x;
+      for (auto [other, x] : term.sets) matrix(set, other) += sign * x;
     }
   }
   const Eigen::FullPivLU<Eigen::MatrixXd> lu(matrix);
   if (!lu.isInvertible()) {
     std::vector<int> lost;
     for (std::size_t g = 0; g < s_.groups.size(); ++g) {
-      if (s_.groups[g].tie >= 0) lost.push_back(static_cast<int>(g));
+      if (s_.groups[g].indeterminate >= 0) lost.push_back(static_cast<int>(g));
     }
     report_undefined(network_, s_, lost);
   }
@@ -279,7 +279,7 @@ void Forest::solve_ties() {
       for (auto [j, x] : rest[static_cast<std::size_t>(l)].flows) sum.flows[j] += inverse(k, l) * x;
       for (auto [node, x] : rest[static_cast<std::size_t>(l)].velocities) sum.velocities[node] += inverse(k, l) * x;
     }
-    s_.ties[static_cast<std::size_t>(k)].velocity = sum.loop(s_, -1);
+    s_.indeterminate[static_cast<std::size_t>(k)].velocity = sum.loop(s_, -1);
   }
 }
 
@@ -290,7 +290,7 @@ void grow_forest(const Network& network, Structure& structure) { Forest(network,
 Structure::Loop express(const Structure& s, NodeId a, NodeId b, int branch) {
   Sum sum = difference(s, a, b);
   if (branch >= 0) sum.flows[branch] += 1;
-  for (auto [tie, sign] : sum.ties) sum.add(s.ties[at(tie)].velocity, -sign);
+  for (auto [set, sign] : sum.sets) sum.add(s.indeterminate[at(set)].velocity, -sign);
   return sum.loop(s, branch);
 }
 

@@ -33,8 +33,8 @@ struct Modes {
 struct Structure {
   struct Group {
     std::vector<NodeId> nodes;  ///< The first one is the group's reference.
-    int tree_branch = -1;       ///< Deflection branch towards the root; -1 for a root with a tie.
-    int tie = -1;               ///< Index into ties, for a group that is itself a root; -1.
+    int tree_branch = -1;       ///< Deflection branch towards the root; -1 for a root that is indeterminate.
+    int indeterminate = -1;     ///< Index into `indeterminate`, for a group that is itself a root; -1.
     NodeId node = ground;       ///< The end of the branch in this group.
     NodeId parent = ground;     ///< The end of the branch in a group nearer to the root, or at the root.
     double sign = 1;            ///< +1 if the branch's first end is in this group.
@@ -51,15 +51,15 @@ struct Structure {
 
   /// Connected groups that only elements of constant force join to the rest, so that their balance does not depend on their
   /// velocity. Their velocity minimises the sum of squares of the relative velocities of these elements.
-  struct Tie {
+  struct IndeterminateGroups {
     Loop velocity;              ///< For the first group as a whole, negated (`branch` is -1).
-    std::vector<NodeId> nodes;  ///< Nodes of all groups of the tie.
+    std::vector<NodeId> nodes;  ///< Nodes of all of them.
     std::vector<int> elements;  ///< Elements of the scene that lead out of the groups.
   };
 
   /// An equation between velocities, v of `pivot` + sum of factors times velocities = 0. The balance of the pivot's forces is that of a
   /// train; a share of it goes to each of the other nodes, and its own row is this equation.
-  struct Tied {
+  struct TrainEquation {
     struct Term { NodeId node; double factor; };
     NodeId pivot;
     std::vector<Term> terms;   ///< No pivot of any other.
@@ -72,10 +72,10 @@ struct Structure {
   std::vector<Branch> sliders;             ///< The sliders, likewise.
   std::vector<char> stuck;                 ///< For each slider.
   std::vector<Branch> inerters;            ///< likewise
-  std::vector<Tied> tied;        ///< The independent equations of the trains, in reduced row echelon form.
+  std::vector<TrainEquation> train_equations;  ///< The independent equations of the trains, in reduced row echelon form.
   /// For each train: its forces at its nodes over the force that it hands on. While its losses slip, these are not its factors.
   std::vector<std::array<double, 3>> train_forces;
-  std::vector<Tie> ties;         ///< Their balances contain no unknown: callers must check them.
+  std::vector<IndeterminateGroups> indeterminate; ///< Their balances contain no unknown: callers must check them.
   std::vector<Kind> kind;        ///< For each node.
   std::vector<int> rank;         ///< For each node: its place in Network::node_order.
   std::vector<int> motion;       ///< For each node: index of the motion that prescribes it, -1.

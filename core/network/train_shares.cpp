@@ -7,13 +7,13 @@
 
 namespace rheonet {
 
-TrainShares::TrainShares(const Network& network, const std::vector<Structure::Tied>& tied, const std::vector<NodeId>& head, std::vector<NodeId> node)
-    : nodes_(std::move(node)), trains_(static_cast<Eigen::Index>(tied.size())) {
+TrainShares::TrainShares(const Network& network, const std::vector<Structure::TrainEquation>& equations, const std::vector<NodeId>& head, std::vector<NodeId> node)
+    : nodes_(std::move(node)), trains_(static_cast<Eigen::Index>(equations.size())) {
   std::vector<Eigen::Index> place(head.size(), -1), pivot(head.size(), -1);
   for (std::size_t i = 0; i < nodes_.size(); ++i) place[at(nodes_[i])] = static_cast<Eigen::Index>(i);
-  for (std::size_t r = 0; r < tied.size(); ++r) pivot[at(tied[r].pivot)] = static_cast<Eigen::Index>(r);
-  for (std::size_t r = 0; r < tied.size(); ++r) {
-    const std::size_t train = at(tied[r].train);
+  for (std::size_t r = 0; r < equations.size(); ++r) pivot[at(equations[r].pivot)] = static_cast<Eigen::Index>(r);
+  for (std::size_t r = 0; r < equations.size(); ++r) {
+    const std::size_t train = at(equations[r].train);
     for (std::size_t end = 0; end < 3; ++end) {
       const std::size_t n = at(head[at(network.trains[train].node[end])]);
       const auto column = static_cast<Eigen::Index>(r);

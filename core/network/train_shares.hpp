@@ -9,12 +9,12 @@
 
 namespace rheonet {
 
-/// Shares of the balances of pivots (Structure::Tied) that other nodes get. The balances of the pivots determine the forces of the
+/// Shares of the balances of pivots (Structure::TrainEquation) that other nodes get. The balances of the pivots determine the forces of the
 /// trains: with P the forces of the trains at the pivots and N those at the other nodes, the shares are N P^-1.
 class TrainShares {
  public:
   /// `node`: those that get shares, and `head`: of each node the one that stands for it (Structure::rigid).
-  TrainShares(const Network& network, const std::vector<Structure::Tied>& tied, const std::vector<NodeId>& head, std::vector<NodeId> node);
+  TrainShares(const Network& network, const std::vector<Structure::TrainEquation>& equations, const std::vector<NodeId>& head, std::vector<NodeId> node);
 
   /// Takes the present forces of the trains at their nodes (Structure::train_forces), and gives the shares: one row for each node, one
   /// column for each pivot.

@@ -92,8 +92,8 @@ class Trains {
         largest = std::max(largest, std::abs(train.factor[k]));
       }
       for (std::size_t r = 0; r < rows.size(); ++r) {
-        subtract(rows[r], s_.tied[r].pivot, row);
-        subtract(columns[r], s_.tied[r].pivot, forces);
+        subtract(rows[r], s_.train_equations[r].pivot, row);
+        subtract(columns[r], s_.train_equations[r].pivot, forces);
       }
       NodeId pivot = -1;
       double least = 0;
@@ -118,11 +118,11 @@ class Trains {
         for (Row& other : *others) subtract(*own, pivot, other);
         others->push_back(std::move(*own));
       }
-      s_.tied.push_back({pivot, {}, {}, static_cast<int>(t)});
+      s_.train_equations.push_back({pivot, {}, {}, static_cast<int>(t)});
     }
     for (std::size_t r = 0; r < rows.size(); ++r) {
       for (const auto& [node, factor] : rows[r]) {
-        if (node != s_.tied[r].pivot && factor != 0) s_.tied[r].terms.push_back({node, factor});
+        if (node != s_.train_equations[r].pivot && factor != 0) s_.train_equations[r].terms.push_back({node, factor});
       }
     }
   }
@@ -131,27 +131,27 @@ class Trains {
   /// nodes.
   void find_forces() {
     const bool any = std::any_of(network_.trains.begin(), network_.trains.end(), [&](const Network::Train& train) { return slips(train) != 0; });
-    for (Structure::Tied& tied : s_.tied) {
-      std::copy_if(tied.terms.begin(), tied.terms.end(), std::back_inserter(tied.shares), [&](const Structure::Tied::Term& term) { return !known(term.node); });
+    for (Structure::TrainEquation& equation : s_.train_equations) {
+      std::copy_if(equation.terms.begin(), equation.terms.end(), std::back_inserter(equation.shares), [&](const Structure::TrainEquation::Term& term) { return !known(term.node); });
     }
     if (!any) return;
     std::set<NodeId> nodes;
-    for (const Structure::Tied& tied : s_.tied) {
-      for (const NodeId node : network_.trains[at(tied.train)].node) {
+    for (const Structure::TrainEquation& equation : s_.train_equations) {
+      for (const NodeId node : network_.trains[at(equation.train)].node) {
         if (!known(head(node))) nodes.insert(head(node));
       }
     }
-    for (const Structure::Tied& tied : s_.tied) nodes.erase(tied.pivot);
+    for (const Structure::TrainEquation& equation : s_.train_equations) nodes.erase(equation.pivot);
     std::vector<NodeId> heads;
     for (std::size_t n = 0; n < head_.size(); ++n) heads.push_back(head(static_cast<NodeId>(n)));
-    TrainShares shares(network_, s_.tied, heads, {nodes.begin(), nodes.end()});
+    TrainShares shares(network_, s_.train_equations, heads, {nodes.begin(), nodes.end()});
     const Eigen::MatrixXd& values = shares.take(s_.train_forces);
     const bool vary = std::any_of(network_.sliders.begin(), network_.sliders.end(), [](const Network::Slider& slider) { return slider.train >= 0 && !slider.varying.empty(); });
-    for (std::size_t r = 0; r < s_.tied.size(); ++r) {
-      s_.tied[r].shares.clear();
+    for (std::size_t r = 0; r < s_.train_equations.size(); ++r) {
+      s_.train_equations[r].shares.clear();
       for (std::size_t i = 0; i < shares.nodes().size(); ++i) {
         const double share = values(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(r));
-        if (share != 0 || vary) s_.tied[r].shares.push_back({shares.nodes()[i], share});
+        if (share != 0 || vary) s_.train_equations[r].shares.push_back({shares.nodes()[i], share});
       }
     }
   }
@@ -225,9 +225,9 @@ class Trains {
     std::map<NodeId, Eigen::Index> place;
     for (const NodeId node : group) place.emplace(node, static_cast<Eigen::Index>(place.size()));
     const auto nodes = static_cast<Eigen::Index>(place.size());
-    std::vector<const Structure::Tied*> rows;
-    for (const Structure::Tied& tied : s_.tied) {
-      if (place.contains(tied.pivot)) rows.push_back(&tied);
+    std::vector<const Structure::TrainEquation*> rows;
+    for (const Structure::TrainEquation& equation : s_.train_equations) {
+      if (place.contains(equation.pivot)) rows.push_back(&equation);
     }
     const Eigen::Index size = nodes + static_cast<Eigen::Index>(rows.size());
     Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(size, size);

@@ -4,7 +4,7 @@
 
 namespace rheonet {
 
-/// Writes the equations of the trains (Structure::tied), whose nodes become massive, and the inertia that is felt at each of them.
+/// Writes the equations of the trains (Structure::train_equations), whose nodes become massive, and the inertia that is felt at each of them.
 /// Equations that follow from others are left out: in some modes sliders lock all nodes of a train. Without modes no slider
 /// holds anything: throws SimulationError for a train that has no equation of its own, or whose nodes have too little inertia to
 /// determine their motion.

@@ -224,7 +224,7 @@ class Explainer {
     const Structure& structure = dae.structure();
     for (const NodeId node : network_.node_order) {
       const bool massive = structure.kind[at(node)] == Kind::massive;
-      const bool pivot = std::any_of(structure.tied.begin(), structure.tied.end(), [&](const Structure::Tied& tied) { return tied.pivot == node; });
+      const bool pivot = std::any_of(structure.train_equations.begin(), structure.train_equations.end(), [&](const Structure::TrainEquation& equation) { return equation.pivot == node; });
       add(dae.indices().velocity[at(node)],
           {.quantity = "velocity", .unit = unit(network_.node(node), Quantity::velocity),
            .equation = pivot ? "the velocities at its transmission fit together" : massive ? "mass times acceleration is the sum of forces" : "the forces at the node balance", .of_nodes = true},

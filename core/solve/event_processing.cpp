@@ -31,7 +31,7 @@ std::vector<NetworkEvents::Turned> turning_along(const std::vector<NetworkEvents
 void add_stopped(System& system, double t, const std::vector<double>& y, const std::vector<double>& yp, std::vector<char>& flags) {
   const NetworkEvents& events = system.events;
   const double resolution = numerics::event_time_ulps * std::numeric_limits<double>::epsilon() * (2 * t - system.integrator.previous_time());
-  for (std::size_t k = events.first_sudden(); k < flags.size(); ++k) {
+  for (std::size_t k = events.first_of_bounds_and_limits(); k < flags.size(); ++k) {
     const int slider = events[k].branch;
     if (flags[k] || !events.slips(k) || !events.slips_between_firm(slider)) continue;
     flags[k] = events.stops_within(slider, resolution, system.dae.view_again(t, y.data(), yp.data()));
@@ -65,7 +65,7 @@ std::vector<char> at_once(System& system, double t, const std::vector<double>& y
 std::vector<int> release(Dae& dae, int branch, double flow, Fired& fired) {
   std::vector<int> released = dae.sliding_modes().release(branch, flow, dae.viewed().p);
   std::size_t i = 0;
-  std::vector<int>& list = dae.network().batch_of(branch, i).direction(i) == 0 ? fired.sudden.rests : fired.sudden.starts;
+  std::vector<int>& list = dae.network().batch_of(branch, i).direction(i) == 0 ? fired.guards.rests : fired.guards.starts;
   list.push_back(branch);
   list.insert(list.end(), released.begin(), released.end());
   return released;
@@ -86,7 +86,7 @@ Fired take_events(System& system, double t, const std::vector<double>& y, const 
     if (events[k] == 0) continue;
     const auto [branch, which] = system.events[k];
     if (which < 0) {
-      if (which == NetworkEvents::of_slider) fired.sudden.sliders.push_back(branch);
+      if (which == NetworkEvents::of_slider) fired.guards.sliders.push_back(branch);
       if (which == NetworkEvents::of_limit) fired.limits.push_back(branch);
       fired.elements.push_back(system.events.element(k));
       continue;
@@ -100,27 +100,27 @@ Fired take_events(System& system, double t, const std::vector<double>& y, const 
     switched.push_back(branch);
     fired.elements.push_back(system.events.element(k));
     batch.switch_memory(i, which, p[at(branch)], flow[at(branch)]);
-    if (!held && direction == 0) fired.sudden.starts.push_back(branch);
-    if (!held && direction != 0 && batch.direction(i) == -direction) fired.sudden.turns.push_back(branch);
+    if (!held && direction == 0) fired.guards.starts.push_back(branch);
+    if (!held && direction != 0 && batch.direction(i) == -direction) fired.guards.turns.push_back(branch);
     if (held) {
       const std::vector<int> released = release(dae, branch, flow[at(branch)], fired);
       switched.insert(switched.end(), released.begin(), released.end());
     }
   }
-  for (const auto& [branch, speed, slides] : turning_along(turned, switched, fired.sudden)) {
+  for (const auto& [branch, speed, slides] : turning_along(turned, switched, fired.guards)) {
     if (slides) {
-      fired.sudden.sliders.push_back(branch);
+      fired.guards.sliders.push_back(branch);
       fired.elements.push_back(dae.network().sliders[at(branch)].branch.element);
       continue;
     }
     std::size_t i = 0;
     DeflectionBatch& batch = dae.network().batch_of(branch, i);
     batch.set_direction(i, p[at(branch)], flow[at(branch)], -batch.direction(i));
-    fired.sudden.turns.push_back(branch);
+    fired.guards.turns.push_back(branch);
     fired.elements.push_back(dae.network().deflections[at(branch)].element);
   }
-  for (const int k : system.events.stopped_along(t, y, yp, fired.sudden.sliders)) {
-    fired.sudden.sliders.push_back(k);
+  for (const int k : system.events.stopped_along(t, y, yp, fired.guards.sliders)) {
+    fired.guards.sliders.push_back(k);
     fired.elements.push_back(dae.network().sliders[at(k)].branch.element);
   }
   return fired;
@@ -134,7 +134,7 @@ Fired take_contradictions(System& system, const std::vector<NetworkEvents::Contr
     std::size_t i = 0;
     DeflectionBatch& batch = system.dae.network().batch_of(branch, i);
     if (which < 0) {
-      fired.sudden.starts.push_back(branch);
+      fired.guards.starts.push_back(branch);
       batch.set_direction(i, p[at(branch)], velocity, velocity < 0 ? -1 : 1);
     } else if (batch.holds(i)) {  // not yet released by a law in parallel
       batch.switch_memory(i, which, p[at(branch)], velocity);

@@ -9,7 +9,7 @@ namespace rheonet {
 
 /// The events at the end of the integrator's last step.
 struct Fired {
-  FiredGuards sudden;      ///< sliders and laws whose next modes EventTransition has to select
+  FiredGuards guards;      ///< sliders and laws whose next modes EventTransition has to select
   std::vector<int> limits;    ///< limits of blocks that fired
   std::vector<int> elements;  ///< indices into Scene::elements of all elements that fired
 };

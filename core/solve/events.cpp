@@ -110,7 +110,7 @@ double NetworkEvents::loss_function(std::size_t k, const Dae::View& view) const 
   return (modes_.b_drives[train] ? -lead : lead) + numerics::balance_roundoff * std::abs(force) + tolerances_.dead_bands().slip(of.friction) + loss_margin_[k];
 }
 
-double NetworkEvents::sudden_function(std::size_t k, const Dae::View& view) const {
+double NetworkEvents::bound_or_limit_function(std::size_t k, const Dae::View& view) const {
   if (k < sliders_.size()) return slider_function(sliders_[k], view);
   k -= sliders_.size();
   return k < limit_margin_.size() ? limit_function(k) : loss_function(k - limit_margin_.size(), view);
@@ -200,7 +200,7 @@ std::vector<int> NetworkEvents::stopped_along(double t, const std::vector<double
     if (!structure.stuck[at(k)]) stop(k, view.slider_velocity[at(k)]);
   }
   // Where all nodes of a train but one have stopped, so does that one.
-  const auto carry_on = [&](const Structure::Tied& tied) {
+  const auto carry_on = [&](const Structure::TrainEquation& equation) {
     NodeId last = -1;
     double own = 1, sum = 0;
     bool several = false;
@@ -211,16 +211,16 @@ std::vector<int> NetworkEvents::stopped_along(double t, const std::vector<double
       last = node;
       own = factor;
     };
-    look(tied.pivot, 1);
-    for (const auto& [node, factor] : tied.terms) look(node, factor);
+    look(equation.pivot, 1);
+    for (const auto& [node, factor] : equation.terms) look(node, factor);
     if (last >= 0 && !several && sum != 0) change[at(last)] = -sum / own;
   };
   const auto rounding = [&](double velocity, double by) {
-    return structure.tied.empty() ? 0 : numerics::sum_ulps * std::numeric_limits<double>::epsilon() * (std::abs(velocity) + std::abs(by));
+    return structure.train_equations.empty() ? 0 : numerics::sum_ulps * std::numeric_limits<double>::epsilon() * (std::abs(velocity) + std::abs(by));
   };
   std::vector<int> along;
   for (bool more = true; std::exchange(more, false);) {
-    for (const Structure::Tied& tied : structure.tied) carry_on(tied);
+    for (const Structure::TrainEquation& equation : structure.train_equations) carry_on(equation);
     for (const int k : sliders_) {
       const Branch& b = structure.sliders[at(k)];
       if (structure.stuck[at(k)] || contains(stopped, k) || contains(along, k)) continue;
@@ -250,13 +250,13 @@ bool NetworkEvents::locked_beside_friction() const {
 
 std::vector<std::size_t> NetworkEvents::may_return() const {
   std::vector<std::size_t> result;
-  for (std::size_t k = first_sudden(); k < events_.size(); ++k) result.push_back(k);
+  for (std::size_t k = first_of_bounds_and_limits(); k < events_.size(); ++k) result.push_back(k);
   for (const Returning& one : returning_) result.push_back(one.event);
   return result;
 }
 
 double NetworkEvents::guard(std::size_t k, const Dae::View& view) const {
-  if (k >= first_sudden()) return sudden_function(k - first_sudden(), view);
+  if (k >= first_of_bounds_and_limits()) return bound_or_limit_function(k - first_of_bounds_and_limits(), view);
   const Returning& one = *std::lower_bound(returning_.begin(), returning_.end(), k, [](const Returning& r, std::size_t event) { return r.event < event; });
   return held_functions(watched_[one.law], view)[at(one.which)] + law_margin_[k];
 }
@@ -365,7 +365,7 @@ void NetworkEvents::evaluate(double t, const double* y, const double* yp, double
     law_functions(w, view, g);
     for (int k = 0; k < w.batch->events(w.i); ++k) *g++ += *margin++;
   }
-  for (std::size_t k = 0; first_sudden() + k < events_.size(); ++k) *g++ = sudden_function(k, view);
+  for (std::size_t k = 0; first_of_bounds_and_limits() + k < events_.size(); ++k) *g++ = bound_or_limit_function(k, view);
 }
 
 }  // namespace rheonet

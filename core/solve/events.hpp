@@ -52,7 +52,7 @@ class NetworkEvents final : public EventFunctions {
   /// One of these in the state of the view.
   double guard(std::size_t k, const Dae::View& view) const;
   /// Numbers of the events of sliders, limits and losses begin here.
-  std::size_t first_sudden() const { return law_margin_.size(); }
+  std::size_t first_of_bounds_and_limits() const { return law_margin_.size(); }
   /// The view in which guards are evaluated within a step.
   const Dae::View& seen_between(double t, const double* y, const double* yp) { return any_at_rest_ ? resolved(t, y, yp) : dae_.view(t, y, yp); }
   /// The same at its end.
@@ -107,7 +107,7 @@ class NetworkEvents final : public EventFunctions {
   double limit_function(std::size_t limit) const;
   double loss_function(std::size_t loss, const Dae::View& view) const;
   /// Guard k of the sliders, then of the limits, then of the losses, in the state of the view.
-  double sudden_function(std::size_t k, const Dae::View& view) const;
+  double bound_or_limit_function(std::size_t k, const Dae::View& view) const;
 
   /// An event of a law that may return within one step: index of the watched law, its event, and the number among all events.
   struct Returning { std::size_t law; int which; std::size_t event; };

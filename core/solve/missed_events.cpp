@@ -9,7 +9,7 @@
 namespace rheonet {
 
 MissedEvents::MissedEvents(Dae& dae, NetworkEvents& events) : dae_(dae), events_(events) {
-  for (std::size_t k = events.first_sudden(); k < static_cast<std::size_t>(events.count()); ++k) {
+  for (std::size_t k = events.first_of_bounds_and_limits(); k < static_cast<std::size_t>(events.count()); ++k) {
     const auto [branch, which] = events[k];
     if (which == NetworkEvents::of_slider && events.slips_between_firm(branch)) slipping_.push_back({branch, k, 0, false});
   }
@@ -80,7 +80,7 @@ std::optional<MissedEvents::Missed> MissedEvents::find(const Integrator& integra
   const bool dips = any_dips(end);
   if (!dips && !events_.sticks()) return first;
   std::vector<char> dipping(watched_.size(), 0);
-  for (const Slipping& one : slipping_) dipping[one.event - events_.first_sudden()] = one.dips;
+  for (const Slipping& one : slipping_) dipping[one.event - events_.first_of_bounds_and_limits()] = one.dips;
   look_at_step(integrator, a, b);
   for (std::size_t i = 0; i < watched_.size(); ++i) {
     if (events_.slips(watched_[i]) && !dipping[i]) continue;

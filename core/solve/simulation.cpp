@@ -161,7 +161,7 @@ class Run {
       const Network::Slider& slider = network_.sliders[k];
       if (slider.varying.empty() || slider.train >= 0 || modes_.slider[k] == Modes::stuck || slider_force_[k] != 0) continue;
       const double velocity = state_.velocity[at(slider.branch.a)] - state_.velocity[at(slider.branch.b)];
-      if (std::abs(velocity) <= tolerances_.dead_bands().slider(static_cast<int>(k))) result.slow.push_back(static_cast<int>(k));
+      if (std::abs(velocity) <= tolerances_.dead_bands().slider(static_cast<int>(k))) result.within_band.push_back(static_cast<int>(k));
     }
     return result;
   }
@@ -207,7 +207,7 @@ class Run {
       return cross(t, true, {}, {round.number + 1, change.heat});
     }
     inputs_.remember(t, view.velocity, view.acceleration);
-    for (const std::string& note : check_ties(dae, t, [this] { tell_overload(); })) note_once(note);
+    for (const std::string& note : check_indeterminate_groups(dae, t, [this] { tell_overload(); })) note_once(note);
     for (const Event& event : mode_changes_.follow(t, modes_, dae.view(t, y_.data(), yp_.data()).p)) {
       if (t > 0) tell(event);
     }
@@ -421,9 +421,9 @@ class Run {
     leave(t);
     Fired fired = take_events(*system_, t, y_, yp_);
     fired_ = std::move(fired.elements);
-    fired.sudden.settles = settling_.find(*system_, tolerances_, t, y_, yp_);
+    fired.guards.settles = settling_.find(*system_, tolerances_, t, y_, yp_);
     const bool jumps = inputs_.blocks().fire(fired.limits);
-    cross(t, jumps, fired.sudden);
+    cross(t, jumps, fired.guards);
   }
 
   /// Restarts the integrator, in modes that the velocities at t do not contradict.
@@ -433,7 +433,7 @@ class Run {
       const std::vector<NetworkEvents::Contradicted> laws = system_->events.contradicted(t, y_, yp_);
       if (laws.empty() || k == numerics::mode_corrections) break;
       leave(t);
-      cross(t, false, take_contradictions(*system_, laws, t, y_, yp_).sudden);
+      cross(t, false, take_contradictions(*system_, laws, t, y_, yp_).guards);
     }
     system_->events.refuse_contradictions(t, y_.data(), yp_.data());
   }

@@ -246,9 +246,9 @@ UnknownRoundoff::Drift UnknownRoundoff::drift_of_state(std::size_t state) const 
 
 /// Each node of a train has the round-off of the others.
 void UnknownRoundoff::spread_over_trains() {
-  for (const Structure::Tied& tied : dae_->structure().tied) {
-    std::vector<std::pair<int, double>> unknowns{{dae_->indices().velocity[at(tied.pivot)], 1}};
-    for (const auto& [node, factor] : tied.terms) unknowns.emplace_back(dae_->indices().velocity[at(node)], std::abs(factor));
+  for (const Structure::TrainEquation& equation : dae_->structure().train_equations) {
+    std::vector<std::pair<int, double>> unknowns{{dae_->indices().velocity[at(equation.pivot)], 1}};
+    for (const auto& [node, factor] : equation.terms) unknowns.emplace_back(dae_->indices().velocity[at(node)], std::abs(factor));
     double sum = 0;
     for (const auto& [unknown, factor] : unknowns) sum += unknown < 0 ? 0 : factor * near_0_[at(unknown)];
     for (const auto& [unknown, factor] : unknowns) {
@@ -393,7 +393,7 @@ void UnknownRoundoff::find_ways(const Magnitudes& seen) {
 /// Velocities at a train follow from each other: the slowest is known to the round-off of the fastest.
 void UnknownRoundoff::find_ties(const Dae::View& view) {
   tied_.assign(network_.trains.empty() ? 0 : network_.nodes(), 0);
-  for (const Structure::Tied& equation : dae_->structure().tied) {
+  for (const Structure::TrainEquation& equation : dae_->structure().train_equations) {
     double sum = std::abs(view.velocity[at(equation.pivot)]);
     for (const auto& [node, factor] : equation.terms) sum += std::abs(factor * view.velocity[at(node)]);
     sum *= of_sum;
