@@ -22,7 +22,7 @@ struct Dimension {
 };
 
 /// Translation: positions in m, forces in N, masses in kg. Rotation: angles in rad, torques in N*m, inertias in kg*m^2.
-enum class Domain { translation, rotation };
+enum class Domain : char { translation, rotation };
 
 /// The kind of quantity that a netlist value represents; its dimension depends on the domain.
 enum class Quantity {

@@ -195,9 +195,9 @@ bool Expander::fits_domain(const ElementTemplate& plan, const std::string& path)
 bool Expander::element_value(const ElementTemplate& plan, const Environment& environment, std::size_t i, double flow_index, SceneElement& element) {
   const Parameter& parameter = context_.declarations[static_cast<std::size_t>(plan.declaration)]->parameters[i];
   const Formula& formula = plan.values[i];
-  const bool curve = parameter.kind == Parameter::Kind::characteristic || (parameter.may_be_curve && !(formula.given() && environment.find("w")));
   const auto characteristic = plan.characteristics.find(i);
-  if (curve && characteristic != plan.characteristics.end()) {
+  const auto is_curve = [&] { return parameter.kind == Parameter::Kind::characteristic || (parameter.may_be_curve && !(formula.given() && environment.find("w"))); };
+  if (characteristic != plan.characteristics.end() && is_curve()) {
     const auto made = characteristic->second.evaluate(environment, context_);
     element.given.set(i);
     double slope;
@@ -254,8 +254,8 @@ bool Expander::element_values(const ElementTemplate& plan, const Environment& en
     if (same != characteristics_.end() && !parameters[i].second_of.empty()) characteristics_[i] = same->second;
     values_[i] = (parameters[i].opposite ? -1 : 1) * values_[index_of(parameters[i].same_as)];
   }
-  for (std::size_t i = 0; i < parameters.size(); ++i)
-    if (parameters[i].may_be_curve && characteristics_.contains(i)) values_[i] = not_given;  // as of a signal
+  for (const auto& [i, characteristic] : characteristics_)
+    if (parameters[i].may_be_curve) values_[i] = not_given;  // as of a signal
   if (!characteristics_.empty()) element.characteristics = std::make_shared<const Characteristics>(characteristics_);
   if (good && declaration.check) {
     if (const std::optional<Misfit> misfit = declaration.check(values_)) {
@@ -364,6 +364,14 @@ bool Expander::members(const ElementTemplate& plan, Ends ends, Level& level, con
   return good;
 }
 
+/// Makes room for `count` times the items that were added since there were `before`. A list that grows by and by would be copied many times,
+/// and so it is not made exactly as long as needed either: each inner `repeat` would make it longer.
+template <class T>
+static void make_room(std::vector<T>& items, std::size_t before, std::size_t count) {
+  const std::size_t wanted = before + (items.size() - before) * count;
+  if (wanted > items.capacity()) items.reserve(std::max(wanted, 2 * items.capacity()));
+}
+
 bool Expander::repeat(const ElementTemplate& plan, Ends ends, const std::string& path, const Surroundings& around) {
   DiagnosticList& diagnostics = context_.diagnostics;
   const Repeat& repeat = *plan.repeat;
@@ -389,7 +397,7 @@ bool Expander::repeat(const ElementTemplate& plan, Ends ends, const std::string&
   const std::string prefix = path + '.';
   std::string member_path;
   const DiagnosticList::Within within(diagnostics, member_path);
-  const std::size_t elements_before = scene_.elements.size();
+  const std::size_t elements_before = scene_.elements.size(), nodes_before = scene_.nodes.size(), assemblies_before = scene_.assemblies.size();
   NodeId before = ends.empty() ? ground : ends[0];  // a block has no ends
   bool good = true;
   for (std::size_t i = 0; i < count && good; ++i) {
@@ -409,11 +417,18 @@ bool Expander::repeat(const ElementTemplate& plan, Ends ends, const std::string&
     } else {
       good = member.sound && body(member, ends, member_path, inside);
     }
+    member_path = path;
+    if (i > 0 || !good) continue;
     // The first member shows how many elements there would be in all.
     const double in_all =
         static_cast<double>(elements_before) + static_cast<double>(scene_.elements.size() - elements_before) * *wanted;
-    member_path = path;
-    if (i == 0 && good && in_all > static_cast<double>(most_elements)) good = refuse(in_all);
+    if (in_all > static_cast<double>(most_elements)) {
+      good = refuse(in_all);
+    } else {
+      make_room(scene_.elements, elements_before, count);
+      make_room(scene_.nodes, nodes_before, count);
+      make_room(scene_.assemblies, assemblies_before, count);
+    }
   }
   if (assembled) end_assembly(assembly, std::move(force), around);
   return good;

@@ -58,15 +58,15 @@ struct SceneElement {
   NodeId a = ground;
   NodeId b = ground;   ///< Ground for an element `at` one node.
   NodeId support = ground;  ///< For a transmission: the node against which it turns.
+  Spot spot;           ///< Of its name.
   bool at = false;     ///< Written with `at`.
   Part part = Part::none;
+  std::optional<Domain> domain = {};  ///< The domain of its first node, if the scene has another: see domain_of.
   Shared<double> values;        ///< SI, one for each declared parameter; not_given for signals and absent optional values.
   std::bitset<32> given;        ///< For each declared parameter: the value is given by the netlist, not a default.
   Shared<Signal> signals;       ///< Signals of the parameters in signal_parameters, in order of declaration.
   Shared<int> signal_parameters;  ///< Indices into Declaration::parameters.
   std::shared_ptr<const Characteristics> characteristics;  ///< nullptr if it has none.
-  Spot spot;           ///< Of its name.
-  std::optional<Domain> domain = {};  ///< The domain of its first node, if the scene has another: see domain_of.
   double scale = 1;    ///< Its velocity is multiplied by this: core/network/transmission.hpp.
   /// For a transmission that is an equation of its own: these factors times the velocities of a, b and support sum to 0. All are 0
   /// for any other element: core/network/transmission.hpp

@@ -265,9 +265,13 @@ test('frozen curves have the colours of their runs everywhere, in an export too'
   for (const colour of ['#0072b2', '#009e73', '#b4508a']) assert.ok(svg.includes(`stroke="${colour}"`), colour);
   assert.equal(/stroke="#(d55e00|56b4e9|e69f00)"/.test(svg), false);
   await page.locator('button', { hasText: 'Compare' }).first().click();
-  await page.waitForFunction(() => document.querySelectorAll('.plots .u-label').length && [...document.querySelectorAll('.plots .u-label')].some((label) => label.textContent.startsWith('B ')));
-  const compared = await page.locator('.plots .chart .u-series', { hasText: /^as at first/ }).first().evaluate((series) => getComputedStyle(series.querySelector('.u-marker')).borderTopColor);
-  assert.equal(compared, 'rgb(0, 158, 115)');
+  // One look at the page: while the comparison runs its plots are drawn anew, and an element found before may be gone.
+  const compared = await page.waitForFunction(() => {
+    const all = [...document.querySelectorAll('.plots .chart .u-series')];
+    const starting = (text) => all.find((series) => series.querySelector('.u-label').textContent.startsWith(text));
+    return starting('B ') && starting('as at first') && getComputedStyle(starting('as at first').querySelector('.u-marker')).borderTopColor;
+  });
+  assert.equal(await compared.jsonValue(), 'rgb(0, 158, 115)');
   await page.locator('button.thaw').click();
   assert.equal(await page.locator('.u-label', { hasText: 'as at first' }).count(), 0);
   await close();
