@@ -155,7 +155,7 @@ TEST_CASE("contract: every effect that a component declares can be left out, but
   for (const Case& c : cases()) {
     const Declaration& d = c.component->declaration;
     Scene scene;
-    SceneElement element{.name = "e", .values = c.values, .given = {}, .signals = {}, .signal_parameters = {}, .characteristics = {}, .spot = {}};
+    SceneElement element{.name = "e", .spot = {}, .values = c.values, .given = {}, .signals = {}, .signal_parameters = {}, .characteristics = {}};
     element.declaration = static_cast<int>(std::find(components().begin(), components().end(), c.component) - components().begin());
     for (const Brought& b : d.effects) {
       const std::vector<Effect> before = brought_by(element);
