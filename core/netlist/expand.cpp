@@ -62,6 +62,14 @@ class Instead {
   T before_;
 };
 
+/// Makes room for `count` times the items that were added since there were `before`. A list that grows by and by would be copied many times,
+/// and so it is not made exactly as long as needed either: each inner `repeat` would make it longer.
+template <class T>
+void make_room(std::vector<T>& items, std::size_t before, std::size_t count) {
+  const std::size_t wanted = before + (items.size() - before) * count;
+  if (wanted > items.capacity()) items.reserve(std::max(wanted, 2 * items.capacity()));
+}
+
 }  // namespace
 
 void Expander::run(Scope& scope, const Environment& environment, const ActiveOverrides& overrides) {
@@ -362,14 +370,6 @@ bool Expander::members(const ElementTemplate& plan, Ends ends, Level& level, con
     before = after;
   }
   return good;
-}
-
-/// Makes room for `count` times the items that were added since there were `before`. A list that grows by and by would be copied many times,
-/// and so it is not made exactly as long as needed either: each inner `repeat` would make it longer.
-template <class T>
-static void make_room(std::vector<T>& items, std::size_t before, std::size_t count) {
-  const std::size_t wanted = before + (items.size() - before) * count;
-  if (wanted > items.capacity()) items.reserve(std::max(wanted, 2 * items.capacity()));
 }
 
 bool Expander::repeat(const ElementTemplate& plan, Ends ends, const std::string& path, const Surroundings& around) {

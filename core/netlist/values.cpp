@@ -178,7 +178,7 @@ std::optional<double> Formula::evaluate_finite(const Environment& environment, Q
 
 bool check_bounds(double value, const Parameter& parameter, const Formula& formula, Domain domain, double flow_index,
                   DiagnosticList& diagnostics) {
-  const std::string unit = unit_of(parameter.quantity, domain, flow_index);
+  const auto unit = [&] { return unit_of(parameter.quantity, domain, flow_index); };
   const Spot spot = formula.source().spot;
   if (std::isinf(value) && !parameter.may_be_infinite) {
     // The hint is for magnitudes alone: only there may a user expect a limit at infinity.
@@ -195,12 +195,12 @@ bool check_bounds(double value, const Parameter& parameter, const Formula& formu
   if (too_low && std::isfinite(parameter.lower)) {
     diagnostics.error(spot, fmt::format("{} must be {} {}, but is {}", formula.name(),
                                      parameter.lower_open ? "greater than" : "at least",
-                                     with_unit(parameter.lower, unit), with_unit(value, unit)));
+                                     with_unit(parameter.lower, unit()), with_unit(value, unit())));
     return false;
   }
   if (value > parameter.upper) {
-    const bool percent = parameter.upper == 1 && value >= 2 && value <= 100 && unit == "1";
-    diagnostics.error(spot, fmt::format("{} must be at most {}, but is {}", formula.name(), with_unit(parameter.upper, unit), with_unit(value, unit)),
+    const bool percent = parameter.upper == 1 && value >= 2 && value <= 100 && unit() == "1";
+    diagnostics.error(spot, fmt::format("{} must be at most {}, but is {}", formula.name(), with_unit(parameter.upper, unit()), with_unit(value, unit())),
                       percent ? fmt::format("{0:g} % is {1:g}, or \"{0:g} %\"", value, value / 100) : "");
     return false;
   }

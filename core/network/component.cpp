@@ -26,10 +26,10 @@ RegisterComponent::RegisterComponent(Component component) {
   Registry& r = registry();
   r.owned.push_back(std::make_unique<Component>(std::move(component)));
   if (r.owned.back()->hidden) return;
-  r.sorted.push_back(r.owned.back().get());
-  std::sort(r.sorted.begin(), r.sorted.end(), [](const Component* a, const Component* b) {
-    return a->declaration.type < b->declaration.type;
-  });
+  const Component* added = r.owned.back().get();
+  r.sorted.insert(std::upper_bound(r.sorted.begin(), r.sorted.end(), added,
+                                   [](const Component* a, const Component* b) { return a->declaration.type < b->declaration.type; }),
+                  added);
   r.declarations.clear();
   for (const Component* c : r.sorted) r.declarations.push_back(&c->declaration);
 }

@@ -5,6 +5,7 @@ import { dirname, join } from 'node:path';
 import { after, before, test } from 'node:test';
 import { fileURLToPath } from 'node:url';
 import { netlist, number, redrawn, setUp } from './desk.mjs';
+import { SceneData } from '../../tools/web/src/scene-data.js';
 import { accessible, browser, done, serve, watched } from './support.mjs';
 
 const netlists = join(dirname(fileURLToPath(import.meta.url)), '../../netlists');
@@ -70,9 +71,8 @@ test('of the curves to choose from, the run is nearest to the one that is said t
       body: JSON.stringify({ task: 'show', text: text(`${name}.toml`), file: `teaching/${name}.toml` }) });
     const messages = (await response.text()).trim().split('\n').map((line) => JSON.parse(line));
     const k = messages.find(({ kind }) => kind === 'scene').records.findIndex(({ path }) => path === predict.y);
-    const rows = messages.filter(({ kind }) => kind === 'rows');
-    const time = rows.flatMap((part) => part.time);
-    const values = rows.flatMap((part) => part.values[k]);
+    const { time, columns } = SceneData.from(messages);
+    const values = columns[k];
     const off = predict.choices.map((choice) => Math.sqrt(choice.y.reduce((sum, value, j) => {
       const at = time.findIndex((t) => t >= choice.time[j] - 1e-9);
       return sum + (value - values[at < 0 ? values.length - 1 : at]) ** 2;

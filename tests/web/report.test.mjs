@@ -5,6 +5,7 @@ import { mkdirSync, readFileSync, readdirSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 import { promisify } from 'node:util';
+import { SceneData } from '../../tools/web/src/scene-data.js';
 import { accessible, bingham, browser, folderWith, pointAt, program, remove, rheonet, watched } from './support.mjs';
 
 let folder, chromium;
@@ -183,7 +184,7 @@ record = ["a.velocity", "kick.force"]
   await rheonet(['report', 'many.toml', '-o', 'many.html'], { cwd: many });
   const html = readFileSync(join(many, 'many.html'), 'utf8');
   const [scene] = JSON.parse(/<script type="application\/json" id="data">(.*?)<\/script>/s.exec(html)[1]).scenes;
-  const { time, values } = scene.find(({ kind }) => kind === 'rows');
+  const { time, columns: values } = SceneData.from(scene);
   assert.ok(time.length > 500 && time.length < 20_000, String(time.length));
   assert.equal(time[0], 0);
   assert.equal(time.at(-1), 2);

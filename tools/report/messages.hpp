@@ -20,7 +20,8 @@ namespace rheonet::report {
 ///     scene        the scene that was read: title, records, elements, schematic, equations, sliders
 ///     catalogue    the element types that a netlist can name, and the JSON Schema of netlists
 ///     explanation  the equations that are solved, and why, in passages of text; or why the scene cannot be simulated
-///     rows         a part of the rows, by column
+///     rows         a part of the rows: `count`, and `columns`, the times and then the values of each record, in base64 of doubles with
+///                  the lowest byte first
 ///     energy       the energy account over time
 ///     events       the events with their times
 ///     done         the cost of the run, notes, claims

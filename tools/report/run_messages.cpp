@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <chrono>
-#include <iterator>
 #include <nlohmann/json.hpp>
+#include <span>
 
 #include "core/netlist/records.hpp"
 #include "core/network/error.hpp"
 #include "core/result/run.hpp"
+#include "tools/report/base64.hpp"
 #include "tools/report/messages.hpp"
 #include "tools/report/row_decimation.hpp"
 #include "tools/rheonet/both_sides.hpp"
@@ -20,41 +21,33 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using nlohmann::json;
 
-/// Collects rows and sends them by column, with all digits: a small motion far from 0 shows only in the last digits.
+/// Collects rows and sends them by column. As doubles, not as decimals: they keep all digits (a small motion far from 0 shows only in the
+/// last), and take a page a fifth of the time to write and to read.
 class RowTeller {
  public:
-  RowTeller(std::size_t columns, bool as_they_come, const Tell& tell)
-      : columns_(columns), as_they_come_(as_they_come), tell_(tell) {}
+  RowTeller(std::size_t records, bool as_they_come, const Tell& tell) : columns_(records + 1), as_they_come_(as_they_come), tell_(tell) {}
 
   void add(double time, const std::vector<double>& values) {
-    fmt::format_to(std::back_inserter(times_), "{}{}", rows_ > 0 ? "," : "", time);
-    for (std::size_t k = 0; k < columns_.size(); ++k)
-      fmt::format_to(std::back_inserter(columns_[k]), "{}{}", rows_ > 0 ? "," : "", values[k] + 0.0);
-    ++rows_;
+    columns_[0].push_back(time);
+    for (std::size_t k = 1; k < columns_.size(); ++k) columns_[k].push_back(values[k - 1] + 0.0);
     constexpr auto wait = std::chrono::milliseconds(100);
     if (as_they_come_ && Clock::now() - last_ > wait) flush();
   }
 
   void flush() {
     last_ = Clock::now();
-    if (rows_ == 0) return;
-    fmt::memory_buffer line;
-    fmt::format_to(std::back_inserter(line), R"({{"kind":"rows","time":[{}],"values":[)", fmt::to_string(times_));
-    for (std::size_t k = 0; k < columns_.size(); ++k)
-      fmt::format_to(std::back_inserter(line), "{}[{}]", k > 0 ? "," : "", fmt::to_string(columns_[k]));
-    fmt::format_to(std::back_inserter(line), "]}}");
-    tell_(fmt::to_string(line));
-    rows_ = 0;
-    times_.clear();
-    for (fmt::memory_buffer& column : columns_) column.clear();
+    if (columns_[0].empty()) return;
+    std::vector<double> all;
+    all.reserve(columns_.size() * columns_[0].size());
+    for (const std::vector<double>& column : columns_) all.insert(all.end(), column.begin(), column.end());
+    tell_(fmt::format(R"({{"kind":"rows","count":{},"columns":"{}"}})", columns_[0].size(), base64(std::as_bytes(std::span(all)))));
+    for (std::vector<double>& column : columns_) column.clear();
   }
 
  private:
-  std::vector<fmt::memory_buffer> columns_;
+  std::vector<std::vector<double>> columns_;  ///< Times, then the values of each record.
   bool as_they_come_;
   const Tell& tell_;
-  fmt::memory_buffer times_;
-  std::size_t rows_ = 0;
   Clock::time_point last_ = Clock::now();
 };
 

@@ -139,7 +139,7 @@ export class Lesson {
     const chart = element('div');
     this.verdict = element('div', { role: 'status' });
     this.steps.append(...[
-      element('section', {}, element('h3', { tabindex: '-1' }, t('2. Compare')), chart, this.verdict),
+      element('section', {}, element('h3', { tabindex: '-1' }, t('2. Compare')), this.verdict, chart),
       element('section', {}, element('h3', {}, t('3. Try')), element('p', {}, told.demo.change ? richText(told.demo.change) : t('Change a value with its slider.')), told.presets.length ? this.presets() : null),
       (told.demo.see || told.demo.why || told.explain) && element('section', {}, element('h3', {}, t('4. Explain')), element('p', {}, t('Say it in your own words first. Then compare.')),
         this.fold(t('See'), paragraphs(told.demo.see)), this.fold(t('Why'), [...paragraphs(told.demo.why), ...paragraphs(told.explain)])),

@@ -31,6 +31,7 @@ export class PlotPanel {
     this.first = 0; // panel that is shown, where there is no room for all
     this.measure = new Measure(() => this.charts.filter((chart) => chart instanceof TimeChart));
     this.holdButton = element('button', { type: 'button', class: 'hold', 'aria-pressed': 'false', onclick: () => this.hold(!this.isHeld), title: t('The vertical axes stay as they are (H)') }, t('Hold axes'));
+    this.eventKey = element('span', { class: 'event-key', hidden: true, title: t('Where something sticks, slips, touches, lets go or turns back, and where the drive has a jump or kink') }, t('events'));
     this.nextButton = element('button', { type: 'button', class: 'next-plot', hidden: true, onclick: () => this.showNext() });
     this.kind = null; // nobody has chosen
     this.owner = null;
@@ -77,6 +78,7 @@ export class PlotPanel {
     if (shape === this.shape) this.update();
     else this.build();
     this.shape = shape;
+    this.eventKey.hidden = this.shownKind !== 'time' || !this.eventTimes().length;
     this.measure.show();
   }
 
@@ -155,7 +157,7 @@ export class PlotPanel {
     else if (kind.id === 'own') this.buildAgainst(this.ownCurves());
     else if (kind.id === 'pair') this.buildPair();
     else this.buildLoop(kind);
-    this.tools.append(...[this.nextButton, this.traces?.controls, kind.id === 'time' ? this.measure.button : null, this.holdButton].filter(Boolean));
+    this.tools.append(...[this.nextButton, this.traces?.controls, kind.id === 'time' ? this.measure.button : null, this.holdButton, this.eventKey].filter(Boolean));
     if (this.isHeld) this.charts.forEach((chart) => chart.hold(true));
     // Names that need another line take it from the charts.
     if (this.watch) this.charts.forEach(({ host }) => host.querySelectorAll('.u-legend, .loop-legend').forEach((legend) => this.watch.observe(legend)));

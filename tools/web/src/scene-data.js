@@ -1,5 +1,14 @@
 // A scene and its run, collected from the messages in tools/report/messages.hpp.
 
+// The columns of a message of rows: the times, then the values of each record.
+export function columnsOf({ count, columns }) {
+  const text = atob(columns);
+  const bytes = new Uint8Array(text.length);
+  for (let i = 0; i < text.length; ++i) bytes[i] = text.charCodeAt(i);
+  const all = new Float64Array(bytes.buffer); // Browsers run on machines with the lowest byte first alone.
+  return Array.from({ length: all.length / count }, (_, k) => all.subarray(k * count, (k + 1) * count));
+}
+
 export class SceneData {
   constructor() {
     this.mistakes = [];
@@ -26,9 +35,8 @@ export class SceneData {
         this.index = new Map(message.records.map((record, k) => [record.path, k]));
         break;
       case 'rows':
-        for (const time of message.time) this.time.push(time);
-        message.values.forEach((values, k) => {
-          const column = this.columns[k];
+        columnsOf(message).forEach((values, k) => {
+          const column = k ? this.columns[k - 1] : this.time;
           for (const value of values) column.push(value);
         });
         break;
