@@ -149,7 +149,10 @@ export class Lesson {
     this.shown = true;
     this.judged = false;
     this.draw();
-    this.steps.querySelector('h3').focus({ preventScroll: true });
+    const heading = this.steps.querySelector('h3');
+    heading.focus({ preventScroll: true });
+    // What was just asked for is seen, below a prediction that may fill the screen; a lesson that is gone on with stays where it was.
+    if (!original) heading.scrollIntoView({ block: 'start' });
   }
 
   fold(name, content) {
