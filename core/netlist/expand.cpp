@@ -62,8 +62,8 @@ class Instead {
   T before_;
 };
 
-/// Makes room for `count` times the items that were added since there were `before`. A list that grows by and by would be copied many times,
-/// and so it is not made exactly as long as needed either: each inner `repeat` would make it longer.
+/// Reserves for `count` copies of the items added since there were `before`. At least doubles the room: an exact reserve in each of nested
+/// repeats would copy the list each time.
 template <class T>
 void make_room(std::vector<T>& items, std::size_t before, std::size_t count) {
   const std::size_t wanted = before + (items.size() - before) * count;

@@ -82,7 +82,7 @@ void keep_sensed(const Scene& scene, std::vector<Touch>& touched) {
   }
 }
 
-bool may_be_between(const Touch& touch) { return touch.count == 2 && touch.spring >= 0 && touch.slider >= 0; }
+bool joins_spring_and_slider(const Touch& touch) { return touch.count == 2 && touch.spring >= 0 && touch.slider >= 0; }
 
 NodeId other_end(const SceneElement& element, NodeId node) { return element.a == node ? element.b : element.a; }
 
@@ -101,10 +101,10 @@ std::vector<Pair> find_pairs(const Scene& scene, const std::vector<Reduced>& law
   keep_sensed(scene, touched);
   std::vector<char> taken(scene.elements.size(), 0);
   std::vector<Pair> pairs;
-  pairs.reserve(static_cast<std::size_t>(std::count_if(touched.begin(), touched.end(), may_be_between)));
+  pairs.reserve(static_cast<std::size_t>(std::count_if(touched.begin(), touched.end(), joins_spring_and_slider)));
   for (NodeId node = 1; node < static_cast<NodeId>(scene.nodes.size()); ++node) {
     const Touch& touch = touched[at(node)];
-    if (!may_be_between(touch)) continue;
+    if (!joins_spring_and_slider(touch)) continue;
     if (taken[at(touch.spring)] || taken[at(touch.slider)] || !std::isnan(scene.nodes[at(node)].velocity)) continue;
     const SceneElement &spring = scene.elements[at(touch.spring)], &slider = scene.elements[at(touch.slider)];
     const Reduced &spring_law = laws[at(touch.spring)], &slider_law = laws[at(touch.slider)];

@@ -23,6 +23,12 @@ if [ -s "$build/tools/web/report.html" ]; then
   done
 fi
 
+# An empty entry in a path of libraries is the folder in which the program is called.
+for file in "$build"/bin/* "$build"/lib/*.so "$folder"/prefix/bin/* "$folder"/prefix/lib/*/*.so*; do
+  [[ -f $file ]] && path=$(readelf -d "$file" 2>/dev/null | sed -n 's/.*Library r.*path: \[\(.*\)\]/\1/p') || continue
+  case ":$path:" in ::) ;; *::*) echo "$file searches the current folder for libraries: $path"; exit 1 ;; esac
+done
+
 mkdir "$folder/user"
 cd "$folder/user"
 # A model that only the installed library has tells it from that of the source tree.

@@ -100,6 +100,9 @@ test('the result is seen only after the prediction, which stays beside the run',
   await compare.click();
   for (const part of ['.plots-box', '.sliders-box']) assert.ok(await page.locator(part).isVisible(), part);
   assert.match(await page.textContent('.lesson-steps'), /That is not what happens\.Only a spring without a dashpot behind it keeps its force\./);
+  // The verdict is in sight, above the curves.
+  const [told, drawn] = await page.locator('.lesson-steps').evaluate((steps) => ['section [role="status"]', '.chart'].map((part) => steps.querySelector(part).getBoundingClientRect().toJSON()));
+  assert.ok(told.top >= 0 && told.bottom <= drawn.top && told.bottom < page.viewportSize().height, `${told.top} ${told.bottom} ${drawn.top}`);
   assert.deepEqual(await page.locator('.lesson-steps .key').allTextContents(), ['the run', 'your prediction']);
   assert.equal(await page.locator('.choices input').first().isDisabled(), true);
   await page.locator('.lesson-steps summary', { hasText: 'Why' }).click();

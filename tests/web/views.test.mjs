@@ -63,7 +63,7 @@ k2 = { type = "spring", between = ["mid", "ground"], stiffness = "100 N/m" }
 stop = "1 s"
 record = ["hand.position", "k2.force"]
 `;
-const desk = setUp({ 'equal.toml': loop.replace('"hand.position"', '"k1.force"'), 'loop.toml': loop, 'oscillator.toml': oscillator, 'turning.toml': turning, 'wide.toml': wide });
+const desk = setUp({ 'equal.toml': loop.replace('"hand.position"', '"k1.force"'), 'loop.toml': loop, 'oscillator.toml': oscillator, 'slip.toml': loop.replace(/k2 = .*/, 'k2 = { type = "slider", between = ["mid", "ground"], coulomb = "0.3 N" }'), 'turning.toml': turning, 'wide.toml': wide });
 const { open } = desk;
 const file = '#file=oscillator.toml';
 
@@ -275,6 +275,19 @@ test('frozen curves have the colours of their runs everywhere, in an export too'
   await page.locator('button.thaw').click();
   assert.equal(await page.locator('.u-label', { hasText: 'as at first' }).count(), 0);
   await close();
+});
+
+test('the key of events stands beside plots over time that have some, and says what they are', async () => {
+  const { page, close } = await open('#file=slip.toml');
+  const key = page.locator('.event-key');
+  await key.locator('summary').click();
+  assert.match(await key.locator('p').innerText(), /something sticks/);
+  await page.locator('.tabs [data-kind="loop"]').click();
+  assert.equal(await key.isVisible(), false);
+  await close();
+  const smooth = await open(file);
+  assert.equal(await smooth.page.locator('.event-key').isVisible(), false);
+  await smooth.close();
 });
 
 test('an export has the units of the screen, in dark pages the colours of light ones', async () => {

@@ -1,21 +1,31 @@
 #include "tools/report/base64.hpp"
 
-#include <algorithm>
 #include <cstdint>
 
 namespace rheonet::report {
+namespace {
+
+constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+
+/// Four digits for three bytes, of which those that are not given are 0.
+void write(char* out, std::uint32_t first, std::uint32_t second = 0, std::uint32_t third = 0) {
+  out[0] = digits[first >> 2];
+  out[1] = digits[(first << 4 | second >> 4) & 63];
+  out[2] = digits[(second << 2 | third >> 6) & 63];
+  out[3] = digits[third & 63];
+}
+
+}  // namespace
 
 std::string base64(std::span<const std::byte> bytes) {
-  constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string text((bytes.size() + 2) / 3 * 4, '=');
   char* out = text.data();
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const std::size_t given = std::min<std::size_t>(3, bytes.size() - i);
-    std::uint32_t group = 0;
-    for (std::size_t k = 0; k < 3; ++k) group = group << 8 | (k < given ? std::to_integer<std::uint32_t>(bytes[i + k]) : 0);
-    for (std::size_t k = 0; k <= given; ++k) out[k] = digits[group >> (18 - 6 * k) & 63];
-    out += 4;
-  }
+  const auto byte = [in = bytes.data()](std::size_t i) { return std::to_integer<std::uint32_t>(in[i]); };
+  const std::size_t left = bytes.size() % 3, whole = bytes.size() - left;
+  for (std::size_t i = 0; i < whole; i += 3, out += 4) write(out, byte(i), byte(i + 1), byte(i + 2));
+  if (left == 0) return text;
+  left == 1 ? write(out, byte(whole)) : write(out, byte(whole), byte(whole + 1));
+  text.replace(text.size() - (3 - left), 3 - left, 3 - left, '=');
   return text;
 }
 

@@ -151,7 +151,7 @@ export class Lesson {
     this.draw();
     const heading = this.steps.querySelector('h3');
     heading.focus({ preventScroll: true });
-    // What was just asked for is seen, below a prediction that may fill the screen; a lesson that is gone on with stays where it was.
+    // A prediction may fill the screen: the comparison, which was just asked for, comes into sight. A lesson that is resumed stays where it was.
     if (!original) heading.scrollIntoView({ block: 'start' });
   }
 

@@ -31,7 +31,8 @@ export class PlotPanel {
     this.first = 0; // panel that is shown, where there is no room for all
     this.measure = new Measure(() => this.charts.filter((chart) => chart instanceof TimeChart));
     this.holdButton = element('button', { type: 'button', class: 'hold', 'aria-pressed': 'false', onclick: () => this.hold(!this.isHeld), title: t('The vertical axes stay as they are (H)') }, t('Hold axes'));
-    this.eventKey = element('span', { class: 'event-key', hidden: true, title: t('Where something sticks, slips, touches, lets go or turns back, and where the drive has a jump or kink') }, t('events'));
+    this.eventKey = element('details', { class: 'event-key', hidden: true }, element('summary', {}, t('events')),
+      element('p', {}, t('The vertical lines are events: something sticks, slips, touches, lets go, yields or turns back, or an input jumps or has a corner.')));
     this.nextButton = element('button', { type: 'button', class: 'next-plot', hidden: true, onclick: () => this.showNext() });
     this.kind = null; // nobody has chosen
     this.owner = null;
@@ -78,7 +79,8 @@ export class PlotPanel {
     if (shape === this.shape) this.update();
     else this.build();
     this.shape = shape;
-    this.eventKey.hidden = this.shownKind !== 'time' || !this.eventTimes().length;
+    // The events come after the curves: until then the key stays as it was.
+    if (this.runs.every(({ data }) => data.done || data.failed)) this.eventKey.hidden = this.shownKind !== 'time' || !this.charts.length || !this.eventTimes().length;
     this.measure.show();
   }
 

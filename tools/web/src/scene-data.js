@@ -1,11 +1,16 @@
 // A scene and its run, collected from the messages in tools/report/messages.hpp.
 
-// The columns of a message of rows: the times, then the values of each record.
-export function columnsOf({ count, columns }) {
-  const text = atob(columns);
+function bytesOf(base64) {
+  if (Uint8Array.fromBase64) return Uint8Array.fromBase64(base64); // ten times as fast; browsers have it since 2025
+  const text = atob(base64);
   const bytes = new Uint8Array(text.length);
   for (let i = 0; i < text.length; ++i) bytes[i] = text.charCodeAt(i);
-  const all = new Float64Array(bytes.buffer); // Browsers run on machines with the lowest byte first alone.
+  return bytes;
+}
+
+// The columns of a message of rows: the times, then the values of each record.
+function columnsOf({ count, columns }) {
+  const all = new Float64Array(bytesOf(columns).buffer); // Browsers run on machines that store the lowest byte first.
   return Array.from({ length: all.length / count }, (_, k) => all.subarray(k * count, (k + 1) * count));
 }
 
@@ -37,7 +42,7 @@ export class SceneData {
       case 'rows':
         columnsOf(message).forEach((values, k) => {
           const column = k ? this.columns[k - 1] : this.time;
-          for (const value of values) column.push(value);
+          for (let i = 0; i < values.length; ++i) column.push(values[i]);
         });
         break;
       default:
