@@ -31,7 +31,7 @@ export class PlotPanel {
     this.first = 0; // panel that is shown, where there is no room for all
     this.measure = new Measure(() => this.charts.filter((chart) => chart instanceof TimeChart));
     this.holdButton = element('button', { type: 'button', class: 'hold', 'aria-pressed': 'false', onclick: () => this.hold(!this.isHeld), title: t('The vertical axes stay as they are (H)') }, t('Hold axes'));
-    this.eventKey = element('details', { class: 'event-key', hidden: true }, element('summary', {}, t('events')),
+    this.eventKey = element('details', { class: 'event-key', hidden: true }, element('summary', {}, t('What are the lines?')),
       element('p', {}, t('The vertical lines are events: something sticks, slips, touches, lets go, yields or turns back, or an input jumps or has a corner.')));
     this.nextButton = element('button', { type: 'button', class: 'next-plot', hidden: true, onclick: () => this.showNext() });
     this.kind = null; // nobody has chosen
