@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <span>
 #include <string_view>
 
 namespace rheonet::test::base64_test {

@@ -24,8 +24,11 @@ if [ -s "$build/tools/web/report.html" ]; then
 fi
 
 # An empty entry in a path of libraries is the folder in which the program is called.
+searched_by() { readelf -d "$1" | sed -n 's/.*Library r.*path: \[\(.*\)\]/\1/p'; }
+[[ $(searched_by "$folder/prefix/bin/rheonet") == *lib* ]]
 for file in "$build"/bin/* "$build"/lib/*.so "$folder"/prefix/bin/* "$folder"/prefix/lib/*/*.so*; do
-  [[ -f $file ]] && path=$(readelf -d "$file" 2>/dev/null | sed -n 's/.*Library r.*path: \[\(.*\)\]/\1/p') || continue
+  [[ -f $file ]] || continue
+  path=$(searched_by "$file")
   case ":$path:" in ::) ;; *::*) echo "$file searches the current folder for libraries: $path"; exit 1 ;; esac
 done
 

@@ -1,4 +1,4 @@
-// What a page collects from the messages of a run. No browser is needed.
+// The curves of a page are the rows of its run. No browser is needed.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { SceneData } from '../../tools/web/src/scene-data.js';

@@ -8,7 +8,7 @@ namespace {
 constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 
 /// Four digits for three bytes, of which those that are not given are 0.
-void write(char* out, std::uint32_t first, std::uint32_t second = 0, std::uint32_t third = 0) {
+void encode_group(char* out, std::uint32_t first, std::uint32_t second = 0, std::uint32_t third = 0) {
   out[0] = digits[first >> 2];
   out[1] = digits[(first << 4 | second >> 4) & 63];
   out[2] = digits[(second << 2 | third >> 6) & 63];
@@ -22,9 +22,9 @@ std::string base64(std::span<const std::byte> bytes) {
   char* out = text.data();
   const auto byte = [in = bytes.data()](std::size_t i) { return std::to_integer<std::uint32_t>(in[i]); };
   const std::size_t left = bytes.size() % 3, whole = bytes.size() - left;
-  for (std::size_t i = 0; i < whole; i += 3, out += 4) write(out, byte(i), byte(i + 1), byte(i + 2));
+  for (std::size_t i = 0; i < whole; i += 3, out += 4) encode_group(out, byte(i), byte(i + 1), byte(i + 2));
   if (left == 0) return text;
-  left == 1 ? write(out, byte(whole)) : write(out, byte(whole), byte(whole + 1));
+  encode_group(out, byte(whole), left == 2 ? byte(whole + 1) : 0);
   text.replace(text.size() - (3 - left), 3 - left, 3 - left, '=');
   return text;
 }
