@@ -502,6 +502,15 @@ test('slow clients, and those that go away, keep nobody waiting', async () => {
   deaf.destroy();
 });
 
+test('it ends with 0 while a client is still asking', async () => {
+  const other = await serve(folder);
+  const socket = net.connect(other.port, '127.0.0.1', () => socket.write('GET / HTTP/1.1\r\n'));
+  socket.on('error', () => {});
+  await once(socket, 'connect');
+  assert.equal(await other.stop(), 0);
+  socket.destroy();
+});
+
 test('it leaves no process behind', async () => {
   const other = await serve(folder);
   const workers = children(other.process.pid);

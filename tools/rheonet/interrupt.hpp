@@ -2,6 +2,8 @@
 
 #include <atomic>
 
+#include "tools/rheonet/arguments.hpp"
+
 namespace rheonet::tool {
 
 /// From now on SIGINT and SIGTERM end the process with a message and exit status 1. A separate thread waits for the signal, so that it
@@ -12,9 +14,9 @@ namespace rheonet::tool {
 void answer_signals();
 
 /// From now on a signal sets the returned flag, and the command has one second to end by itself with a better message (the
-/// simulated time, the number of runs done). After that second the thread ends the process as above. In both cases the files keep all
-/// complete rows written so far.
-const std::atomic<bool>& end_on_signals();
+/// simulated time, the number of runs done). After that second the thread ends the process as above, with the exit status `late`; with
+/// `done`, for a command that has no other end, without a message. In all cases the files keep all complete rows written so far.
+const std::atomic<bool>& end_on_signals(ExitStatus late = not_simulated);
 
 /// Call when the command has reported the interrupt: the thread then ends the process without another message.
 void interrupt_is_told();

@@ -84,7 +84,13 @@ export class Animation {
       Object.assign(new SymbolMotion(node, ends[node.dataset.element] ?? {}), { name: node.dataset.element, slides: node.classList.contains('slider') }));
     this.wires = [...svg.querySelectorAll('path.node')].map((node) => ({ node, name: node.dataset.node }));
     this.turning = new Turning(svg, this.parts, this.wires, (node) => node !== 'ground' && this.scale.angle(node, 0) !== null);
-    this.labels = new Labels(svg, this.parts, farthestShift);
+    this.labels = null;
+  }
+
+  // Call when texts of the drawing have changed.
+  rename() {
+    this.labels?.place(() => 0);
+    this.labels = null;
   }
 
   // The displacements at which a stop is in contact: when compressed in the drawing, and when extended.
@@ -166,7 +172,8 @@ export class Animation {
     this.onmove(shift);
     this.svg.closest('.drawing')?.classList.toggle('moved', this.place > 0);
     this.turning.show((node) => scale.angle(node, i));
-    this.labels.place(shift);
+    // Measuring labels takes a moment, which those who do not look at motion should not wait for.
+    if (this.labels || this.wires.some(({ name }) => shift(name) !== 0)) (this.labels ??= new Labels(this.svg, this.parts, farthestShift)).place(shift);
     for (const kind of Object.keys(arrowsOf)) {
       if (this.shows(kind)) this.makeArrows(kind).show(i, shift);
       if (this.arrows[kind]) this.arrows[kind].host.style.display = this.shows(kind) ? '' : 'none';

@@ -24,6 +24,7 @@ export class Beside {
   // `other`: the variant beside the current one, null: none.
   show(current, other, isFirst) {
     const scene = other?.data.scene;
+    if (!scene && this.host.hidden) return;
     this.host.hidden = !scene;
     this.drawing.dataset.label = scene ? current.label : '';
     if (scene?.schematic !== this.drawn) {

@@ -60,6 +60,8 @@ export function onTheme(changed) {
 // Smallest legible scale of a drawing: its smallest letters have 10 px and are legible at 9 px.
 export const legible = 0.9;
 
+const describe = (svg, scene) => svg.setAttribute('aria-label', t('Schematic of {title}', { title: scene.title || scene.file }));
+
 // The drawing of a network in the colours of the page. With `read`, its scale is never below `legible`.
 export function schematicOf(scene, { read = true } = {}) {
   const host = element('div', { class: 'schematic' });
@@ -73,7 +75,7 @@ export function schematicOf(scene, { read = true } = {}) {
     .replaceAll('#ffffff', 'var(--paper)')
     .replaceAll('#666666', 'var(--faint)');
   const svg = host.querySelector('svg');
-  svg.setAttribute('aria-label', t('Schematic of {title}', { title: scene.title || scene.file }));
+  describe(svg, scene);
   if (read) {
     svg.style.minWidth = `${legible * svg.getAttribute('width')}px`;
     svg.style.minHeight = `${legible * svg.getAttribute('height')}px`;
@@ -86,4 +88,26 @@ export function schematicOf(scene, { read = true } = {}) {
   svg.removeAttribute('width');
   svg.removeAttribute('height');
   return host;
+}
+
+function textsIn(root) {
+  const walker = document.createTreeWalker(root, NodeFilter.SHOW_TEXT);
+  const texts = [];
+  while (walker.nextNode()) texts.push(walker.currentNode);
+  return texts;
+}
+const withoutTexts = (drawing) => drawing.replace(/>[^<]*</g, '><');
+
+// Writes the texts of the scene's schematic into `svg`, which schematicOf made of the drawing `before`. Returns false where more than texts
+// differ.
+export function rewritten(svg, before, scene) {
+  const now = scene.schematic;
+  if (!before || !now || withoutTexts(before) !== withoutTexts(now)) return false;
+  describe(svg, scene);
+  const texts = textsIn(new DOMParser().parseFromString(now, 'image/svg+xml'));
+  // What has been added to the drawing since, such as handles, comes after it.
+  textsIn(svg).slice(0, texts.length).forEach((text, k) => {
+    if (text.data !== texts[k].data) text.data = texts[k].data;
+  });
+  return true;
 }

@@ -143,9 +143,9 @@ export class Drawing {
       this.handles.attach(this.host.firstElementChild, groundAlone);
     } else if (svg && scene) {
       this.handles.attach(svg, scene, this.isOn);
-      this.desk.view.attach(); // The drawing may be wider now.
       this.handles.show(this.inspector.target);
     }
+    this.desk.view.attach(); // after the handles, which may widen the drawing
   }
 
   // Call when the text has changed, or when rheonet has read it.

@@ -7,7 +7,7 @@ import './presentation.css';
 import { Animation } from './animation.js';
 import { Beside } from './beside.js';
 import { Drawing } from './drawing.js';
-import { element, schematicOf, tellMore } from './dom.js';
+import { element, rewritten, schematicOf, tellMore } from './dom.js';
 import { Editor } from './editor.js';
 import { choices } from './choices.js';
 import { DrawingView } from './drawing-view.js';
@@ -336,11 +336,15 @@ class Playground {
   }
 
   showSchematic(scene) {
-    if (scene.schematic === this.drawn) return;
+    const before = this.drawn;
+    if (scene.schematic === before) return;
     this.drawn = scene.schematic;
+    if (rewritten(this.parts.drawing.querySelector('.schematic svg'), before, scene)) {
+      this.animation.rename();
+      return;
+    }
     this.parts.drawing.replaceChildren(schematicOf(scene));
     this.drawing.attach(scene);
-    this.view.attach();
   }
 
   showMotion(data) {
