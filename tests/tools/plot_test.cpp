@@ -284,6 +284,7 @@ TEST_CASE("plot says what is wrong with what it is asked for") {
   CHECK(said("scene.toml r.csv -y c2.force -o a.svg") ==
         "error: `scene.toml` has no column `c2.force`\n  did you mean `k1.force`?\n");
   CHECK(said("none.csv -o a.svg") == "error: `none.csv` cannot be read: No such file or directory\n");
+  CHECK(said("r.csv k1.force -o a.svg") == "error: there is no file `k1.force`\n  what is to be drawn is named by -y: `-y k1.force`\n");
   CHECK(said("r.csv -o a.pdf") == "error: `--output a.pdf` is neither an .svg nor a .png\n");
   CHECK(said("r.csv -o a.svg --x-range 2:1") ==
         "error: `--x-range 2:1` is no range; it takes two numbers, the lower one first: --x-range 0:2.5\n");

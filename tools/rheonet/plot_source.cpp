@@ -121,6 +121,9 @@ plot::Measure measure_of(const Scene& scene, const Record& record) {
 std::unique_ptr<PlotSource> open_plot_source(const std::string& file, const Arguments& arguments,
                                              const std::vector<std::string>& wanted, bool lenient) {
   if (file.ends_with(".toml")) return std::make_unique<SceneSource>(file, arguments, wanted, lenient);
+  std::error_code error;
+  if (plot::measure_of_record(file, Domain::translation) && !std::filesystem::exists(file, error))
+    throw plot::Mistake(fmt::format("there is no file `{}`", file), fmt::format("what is to be drawn is named by -y: `-y {}`", file));
   return std::make_unique<CsvSource>(file, arguments);
 }
 
