@@ -507,6 +507,8 @@ test('it ends with 0 while a client is still asking', async () => {
   const socket = net.connect(other.port, '127.0.0.1', () => socket.write('GET / HTTP/1.1\r\n'));
   socket.on('error', () => {});
   await once(socket, 'connect');
+  // Connections are taken in their order: once this one is answered the other one is being read.
+  await fetch(other.origin);
   assert.equal(await other.stop(), 0);
   socket.destroy();
 });

@@ -18,7 +18,7 @@ namespace {
 constexpr std::chrono::milliseconds orderly_end{1000};
 
 std::atomic<bool> interrupted = false, ends_by_itself = false, reported = false;
-std::atomic<ExitStatus> status = not_simulated;
+std::atomic<ExitStatus> late_status = not_simulated;
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may touch nothing else, but post a semaphore");
 sem_t signalled;
 
@@ -26,8 +26,8 @@ sem_t signalled;
 [[noreturn]] void end_process() {
   // Files must end with a complete row: a write in progress is completed, or its incomplete last row is removed.
   const std::string kept = Output::finish_all();
-  if (!reported && status != done) say("{}error: interrupted\n{}", ::isatty(STDERR_FILENO) != 0 ? "\r\x1b[K" : "", kept);
-  ::_exit(status);
+  if (!reported && late_status != done) say("{}error: interrupted\n{}", ::isatty(STDERR_FILENO) != 0 ? "\r\x1b[K" : "", kept);
+  ::_exit(late_status);
 }
 
 void wait_for_signal() {
@@ -52,8 +52,8 @@ void answer_signals() {
   sigaction(SIGTERM, &action, nullptr);
 }
 
-const std::atomic<bool>& end_on_signals(ExitStatus late) {
-  status = late;
+const std::atomic<bool>& end_on_signals(ExitStatus status_when_late) {
+  late_status = status_when_late;
   ends_by_itself = true;
   return interrupted;
 }

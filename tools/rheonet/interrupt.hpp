@@ -14,9 +14,10 @@ namespace rheonet::tool {
 void answer_signals();
 
 /// From now on a signal sets the returned flag, and the command has one second to end by itself with a better message (the
-/// simulated time, the number of runs done). After that second the thread ends the process as above, with the exit status `late`; with
-/// `done`, for a command that has no other end, without a message. In all cases the files keep all complete rows written so far.
-const std::atomic<bool>& end_on_signals(ExitStatus late = not_simulated);
+/// simulated time, the number of runs done). After that second the thread ends the process as above, with the exit status
+/// `status_when_late`; with `done`, for `serve`, which ends in no other way, without a message. In all cases the files keep all
+/// complete rows written so far.
+const std::atomic<bool>& end_on_signals(ExitStatus status_when_late = not_simulated);
 
 /// Call when the command has reported the interrupt: the thread then ends the process without another message.
 void interrupt_is_told();

@@ -144,7 +144,7 @@ ExitStatus listen(const ServeArguments& wanted, Folder& folder) {
   Keys keys(port, !wanted.framed_by.empty());
   Api api(folder, pool, keys);
   api.attach(server, wanted.host, shared_address(wanted.host, port), wanted.framed_by);
-  const std::atomic<bool>& interrupted = end_on_signals(done);
+  const std::atomic<bool>& interrupted = end_on_signals(/*status_when_late=*/done);
   // A server that does not listen yet ignores `stop`.
   std::atomic<bool> ended = false;
   std::thread ending([&] {

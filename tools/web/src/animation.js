@@ -58,17 +58,17 @@ export class Animation {
     this.data = data;
     this.host.hidden = !data.hasCurves;
     if (isOther) this.place = 0;
-    if (!svg || !data.hasCurves) {
-      this.parts = null;
-      return;
-    }
-    this.scale = new MotionScale(data, beside?.hasCurves ? new MotionScale(beside) : null);
-    if (this.held) this.scale.px = this.held;
-    if (this.svg !== svg) this.take(svg);
-    this.bounds = this.boundsOf(data.scene.elements);
-    this.wires.forEach(({ node, name }) => node.classList.toggle('runs', this.scale.runs(name)));
     Object.values(this.arrows ?? {}).forEach(({ host }) => host.remove());
     this.arrows = {};
+    if (this.svg !== svg) this.parts = null;
+    this.svg = svg;
+    if (!data.hasCurves) this.rest();
+    if (!svg || !data.hasCurves) return;
+    this.scale = new MotionScale(data, beside?.hasCurves ? new MotionScale(beside) : null);
+    if (this.held) this.scale.px = this.held;
+    if (!this.parts) this.take(svg);
+    this.bounds = this.boundsOf(data.scene.elements);
+    this.wires.forEach(({ node, name }) => node.classList.toggle('runs', this.scale.runs(name)));
     this.bars.attach(data);
     this.toggles.forces.hidden = !hasForces(this.parts, data);
     this.toggles.energy.hidden = !this.bars.energy;
@@ -78,7 +78,6 @@ export class Animation {
   }
 
   take(svg) {
-    this.svg = svg;
     const { ends } = this.data.scene;
     this.parts = [...svg.querySelectorAll('[data-element]')].map((node) =>
       Object.assign(new SymbolMotion(node, ends[node.dataset.element] ?? {}), { name: node.dataset.element, slides: node.classList.contains('slider') }));
@@ -87,8 +86,25 @@ export class Animation {
     this.labels = null;
   }
 
-  // Call when texts of the drawing have changed.
-  rename() {
+  // Without a run the drawing is as it was drawn.
+  rest() {
+    if (!this.parts) return;
+    for (const { node } of this.wires) {
+      node.style.transform = '';
+      node.classList.remove('runs');
+    }
+    for (const part of this.parts) {
+      part.place(0, 0);
+      part.node.classList.remove('sticks', 'slips');
+    }
+    this.turning.show(() => 0);
+    this.textsChanged();
+    this.onmove(() => 0);
+    this.svg.closest('.drawing')?.classList.remove('moved');
+  }
+
+  // Call when texts of the drawing have changed: they are measured again when they move.
+  textsChanged() {
     this.labels?.place(() => 0);
     this.labels = null;
   }
@@ -159,7 +175,7 @@ export class Animation {
 
   draw() {
     const { data, scale } = this;
-    if (!this.parts || !data?.time.length) return;
+    if (!this.parts || !data?.hasCurves) return;
     const { start, stop } = data.span;
     const time = start + this.place * (stop - start);
     const i = data.at(time);
@@ -172,7 +188,7 @@ export class Animation {
     this.onmove(shift);
     this.svg.closest('.drawing')?.classList.toggle('moved', this.place > 0);
     this.turning.show((node) => scale.angle(node, i));
-    // Measuring labels takes a moment, which those who do not look at motion should not wait for.
+    // Labels are measured when something first moves: it makes the browser lay out the page.
     if (this.labels || this.wires.some(({ name }) => shift(name) !== 0)) (this.labels ??= new Labels(this.svg, this.parts, farthestShift)).place(shift);
     for (const kind of Object.keys(arrowsOf)) {
       if (this.shows(kind)) this.makeArrows(kind).show(i, shift);
@@ -190,7 +206,7 @@ export class Animation {
   }
 
   follow(leader, time) {
-    if (!this.parts) return;
+    if (!this.parts || !this.data.hasCurves) return;
     const { start, stop } = this.data.span;
     this.place = Math.min(1, Math.max(0, (time - start) / (stop - start)));
     for (const [name, toggle] of Object.entries(this.toggles)) toggle.firstChild.checked = leader.shows(name);

@@ -96,16 +96,18 @@ function textsIn(root) {
   while (walker.nextNode()) texts.push(walker.currentNode);
   return texts;
 }
-const withoutTexts = (drawing) => drawing.replace(/>[^<]*</g, '><');
+// Whether a text is empty stays: it has no node of its own then.
+const withoutTexts = (drawing) => drawing.replace(/>[^<]+</g, '>.<');
+const partsOf = ({ ends, joints, elements }) => JSON.stringify([ends, joints, elements.map(({ name, type, domain }) => [name, type, domain])]);
 
-// Writes the texts of the scene's schematic into `svg`, which schematicOf made of the drawing `before`. Returns false where more than texts
-// differ.
-export function rewritten(svg, before, scene) {
-  const now = scene.schematic;
-  if (!before || !now || withoutTexts(before) !== withoutTexts(now)) return false;
+// Writes the texts of `scene`'s schematic into `svg`, which schematicOf made of the scene `before`. Returns false, and changes nothing, where more
+// than texts differ.
+export function rewriteTexts(svg, before, scene) {
+  if (!svg || !before?.schematic || !scene.schematic || partsOf(before) !== partsOf(scene) || withoutTexts(before.schematic) !== withoutTexts(scene.schematic)) return false;
   describe(svg, scene);
-  const texts = textsIn(new DOMParser().parseFromString(now, 'image/svg+xml'));
-  // What has been added to the drawing since, such as handles, comes after it.
+  if (before.schematic === scene.schematic) return true;
+  const texts = textsIn(new DOMParser().parseFromString(scene.schematic, 'image/svg+xml'));
+  // The texts of handles and arrows, which are added to a drawing, come after its own.
   textsIn(svg).slice(0, texts.length).forEach((text, k) => {
     if (text.data !== texts[k].data) text.data = texts[k].data;
   });

@@ -33,7 +33,8 @@ export class Handles {
     svg.querySelector('.handles')?.remove();
     let { joints } = scene;
     if (ground && !svg.querySelector('path.ground')) joints = [...joints, this.addGround(svg)];
-    else if (svg.querySelector('.added-ground')) joints = [...joints, this.ground];
+    else if (ground && svg.querySelector('.added-ground')) joints = [...joints, this.ground];
+    else this.removeGround(svg);
     // The role of an image would hide its parts from screen readers.
     svg.setAttribute('role', 'group');
     const layer = shape('g', { class: 'handles' });
@@ -79,6 +80,7 @@ export class Handles {
   // Adds ground beside the drawing, which is widened for it.
   addGround(svg) {
     const { width, height } = svg.viewBox.baseVal;
+    svg.dataset.before = svg.getAttribute('viewBox');
     const [room, y] = [46, height / 2];
     svg.setAttribute('viewBox', `0 0 ${width + room} ${height}`);
     for (const side of ['minWidth', 'maxWidth']) if (svg.style[side]) svg.style[side] = `${(Number.parseFloat(svg.style[side]) * (width + room)) / width}px`;
@@ -88,6 +90,12 @@ export class Handles {
     svg.append(group);
     this.ground = { element: '', node: 'ground', x, y };
     return this.ground;
+  }
+
+  removeGround(svg) {
+    svg.querySelector('.added-ground')?.remove();
+    if (svg.dataset.before) svg.setAttribute('viewBox', svg.dataset.before);
+    delete svg.dataset.before;
   }
 
   overElement(part, scene) {

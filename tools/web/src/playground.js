@@ -7,7 +7,7 @@ import './presentation.css';
 import { Animation } from './animation.js';
 import { Beside } from './beside.js';
 import { Drawing } from './drawing.js';
-import { element, rewritten, schematicOf, tellMore } from './dom.js';
+import { element, rewriteTexts, schematicOf, tellMore } from './dom.js';
 import { Editor } from './editor.js';
 import { choices } from './choices.js';
 import { DrawingView } from './drawing-view.js';
@@ -326,7 +326,8 @@ class Playground {
     this.showTitle(scene.title);
     this.showLesson(scene);
     this.showSchematic(scene);
-    this.showMotion(data);
+    // Until there are rows the motion is that of the run before.
+    if (data.hasCurves || data.done || data.failed) this.showMotion(data);
     this.course.take(data, this.current.shown ?? this.current.text);
   }
 
@@ -337,10 +338,9 @@ class Playground {
 
   showSchematic(scene) {
     const before = this.drawn;
-    if (scene.schematic === before) return;
-    this.drawn = scene.schematic;
-    if (rewritten(this.parts.drawing.querySelector('.schematic svg'), before, scene)) {
-      this.animation.rename();
+    this.drawn = scene;
+    if (rewriteTexts(this.parts.drawing.querySelector('.schematic svg'), before, scene)) {
+      if (before.schematic !== scene.schematic) this.animation.textsChanged();
       return;
     }
     this.parts.drawing.replaceChildren(schematicOf(scene));
