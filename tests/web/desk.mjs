@@ -19,6 +19,18 @@ output = { points = 801 }
 record = ["block.position", "k1.force"]
 `;
 
+// A block that a force pushes against a spring.
+export const oscillator = `[elements]
+push = { type = "force", at = "block", force = "1 N" }
+block = { type = "mass", at = "block", mass = "1 kg" }
+k = { type = "spring", between = ["block", "ground"], stiffness = "100 N/m" }
+[nodes]
+block = { position = "5 mm" }
+[simulate]
+stop = "2 s"
+record = ["block.position"]
+`;
+
 // Starts a server of a folder with these netlists, and a browser, for the tests of a file. The properties of the result are set when the tests
 // run.
 export function setUp(files = { 'bingham.toml': bingham }) {
@@ -89,6 +101,11 @@ export async function numbersOnCanvas(page) {
   return async () => (await page.evaluate(() => [...window.written])).map(Number).filter(Number.isFinite);
 }
 
+// Goes to a part of the run.
+export const at = (page, part) => page.locator('.animation > input').evaluate((input, value) => {
+  input.value = String(value);
+  input.dispatchEvent(new Event('input', { bubbles: true }));
+}, Math.round(1000 * part));
 export const slider = (page, name) => page.locator(`[data-slider="${name}"] input[type="range"]`);
 export const number = (page, name) => page.locator(`[data-slider="${name}"] input[type="text"]`);
 export const netlist = (page) => page.evaluate(() => [...document.querySelectorAll('.cm-line')].map((line) => line.textContent).join('\n'));

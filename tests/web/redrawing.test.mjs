@@ -1,22 +1,10 @@
-// The schematic when the netlist changes: what is seen is what a page shows that opens the changed netlist.
+// A netlist that changes: its schematic becomes the one of a page that has just opened the changed netlist.
 import assert from 'node:assert/strict';
 import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
-import { number, redrawn, setUp } from './desk.mjs';
+import { at, number, oscillator, redrawn, setUp } from './desk.mjs';
 
-// A block that a force pushes against a spring.
-const oscillator = `title = "One"
-[elements]
-push = { type = "force", at = "block", force = "1 N" }
-block = { type = "mass", at = "block", mass = "1 kg" }
-k = { type = "spring", between = ["block", "ground"], stiffness = "100 N/m" }
-[nodes]
-block = { position = "5 mm" }
-[simulate]
-stop = "2 s"
-record = ["block.position"]
-`;
 // A slider that holds up to 2 N, without a mass to accelerate beyond that; and a mass on a spring.
 const held = `[elements]
 push = { type = "force", at = "block", force = "1 N" }
@@ -47,12 +35,7 @@ record = ["body.position"]
 `;
 const desk = setUp({ 'oscillator.toml': oscillator, 'held.toml': held, 'both.toml': both, 'free.toml': free });
 
-// Goes to a part of the run.
-const at = (page, part) => page.locator('.animation > input').evaluate((input, value) => {
-  input.value = String(value);
-  input.dispatchEvent(new Event('input', { bubbles: true }));
-}, Math.round(1000 * part));
-// What is seen of the schematic: its texts and wires with their places on the screen [px], its arrows, and what turns or sticks.
+// The visible state of the schematic: texts and wires with their places on the screen [px], arrows, and the symbols that turn or stick.
 const seen = (page) => page.locator('.drawing svg').evaluate((svg) => ({
   shapes: [...svg.querySelectorAll('text, path.node')].map((shape) => {
     const { x, y, width } = shape.getBoundingClientRect();
@@ -82,7 +65,7 @@ test('a changed number is written into the schematic, which is drawn anew only w
   const svg = page.locator('.drawing .schematic svg');
   await svg.evaluate((node) => (node.dataset.first = 'yes'));
   let text = oscillator;
-  // At the start and in motion. A longer text moves what is beside it.
+  // At the start and in motion. A longer text needs more room.
   for (const [path, before, now, part, isFirst] of [
     ['k.stiffness', '100 N/m', '200 N/m', 0, true], ['k.stiffness', '200 N/m', '300 N/m', 0.3, true], ['block.mass', '1 kg', '2 kg', 0.3, true],
     ['k.stiffness', '300 N/m', '123456 N/m', 0, false], ['block.mass', '2 kg', '23456.7 kg', 0.3, false],

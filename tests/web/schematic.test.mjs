@@ -1,7 +1,7 @@
 // The schematic of the playground: it moves as the network does, and can be read whatever it does and wherever it is.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { netlist, redrawn, setUp, shows, stickSlip } from './desk.mjs';
+import { at, netlist, oscillator, redrawn, setUp, shows, stickSlip } from './desk.mjs';
 
 // A row that is wider than a phone, whose middle moves further than its texts are apart.
 const maxwell = `[elements]
@@ -53,17 +53,6 @@ soil = { type = "slider", between = ["pile", "ground"], coulomb = "90 kN" }
 stop = "0.8 s"
 record = ["hammer.position", "pile.position"]
 `;
-// A block that a force pushes against a spring.
-const oscillator = `[elements]
-push = { type = "force", at = "block", force = "1 N" }
-block = { type = "mass", at = "block", mass = "1 kg" }
-k = { type = "spring", between = ["block", "ground"], stiffness = "100 N/m" }
-[nodes]
-block = { position = "5 mm" }
-[simulate]
-stop = "2 s"
-record = ["block.position"]
-`;
 // A block that is pulled away to the right, until it has gone 50 mm in 1 s.
 const leaving = `[parameters]
 X = "50 mm"
@@ -85,11 +74,6 @@ record = ["k0.force"]
 const desk = setUp({ 'leaving.toml': leaving, 'high.toml': high, 'oscillator.toml': oscillator, 'driver.toml': driver, 'rotor.toml': rotor, 'stop.toml': stop, 'maxwell.toml': maxwell, 'held.toml': held, 'stick-slip.toml': stickSlip });
 const { open } = desk;
 
-// Goes to a part of the run.
-const at = (page, part) => page.locator('.animation > input').evaluate((input, value) => {
-  input.value = String(value);
-  input.dispatchEvent(new Event('input', { bubbles: true }));
-}, Math.round(1000 * part));
 // Where a symbol is, in the coordinates of the drawing.
 const boxOf = (page, selector) => page.locator(`.drawing ${selector}`).first().evaluate((node) => {
   const { x, y, width, height } = node.getBBox();

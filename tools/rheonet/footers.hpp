@@ -8,8 +8,8 @@ inline constexpr const char* footer_of_rheonet =
     "  rheonet run scene.toml -o result.csv\n"
     "  rheonet components spring\n"
     "`rheonet COMMAND --help` describes the options of a command.\n\n"
-    "Ctrl-C (SIGINT) and SIGTERM end any command within 2 s, `serve` with exit status 0, others with 1. Complete rows written so far are kept.\n"
-    "A second signal ends it at once.";
+    "Ctrl-C (SIGINT) and SIGTERM end any command within 2 s, `serve` with exit status 0, all others with 1. Complete rows\n"
+    "written so far are kept. A second signal ends it at once.";
 inline constexpr const char* footer_of_run =
     "Examples:\n"
     "  rheonet run scene.toml -o result.csv\n"

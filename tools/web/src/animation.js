@@ -89,18 +89,22 @@ export class Animation {
   // Without a run the drawing is as it was drawn.
   rest() {
     if (!this.parts) return;
-    for (const { node } of this.wires) {
-      node.style.transform = '';
-      node.classList.remove('runs');
-    }
+    this.wires.forEach(({ node }) => node.classList.remove('runs'));
     for (const part of this.parts) {
       part.place(0, 0);
       part.node.classList.remove('sticks', 'slips');
     }
-    this.turning.show(() => 0);
-    this.textsChanged();
-    this.onmove(() => 0);
+    this.pose(() => 0, () => 0);
     this.svg.closest('.drawing')?.classList.remove('moved');
+  }
+
+  // Wires, labels, handles and what turns, at their places; shiftOf(node) [px], angleOf(node) [rad].
+  pose(shiftOf, angleOf) {
+    for (const { node, name } of this.wires) node.style.transform = `translateX(${shiftOf(name).toFixed(2)}px)`;
+    this.onmove(shiftOf);
+    this.turning.show(angleOf);
+    // Labels are measured when something first moves: it makes the browser lay out the page.
+    if (this.labels || this.wires.some(({ name }) => shiftOf(name) !== 0)) (this.labels ??= new Labels(this.svg, this.parts, farthestShift)).place(shiftOf);
   }
 
   // Call when texts of the drawing have changed: they are measured again when they move.
@@ -180,16 +184,10 @@ export class Animation {
     const time = start + this.place * (stop - start);
     const i = data.at(time);
     const shift = (node) => scale.shift(node, i);
-    for (const { node, name } of this.wires) {
-      node.style.transform = `translateX(${shift(name).toFixed(2)}px)`;
-      if (scale.runs(name)) node.style.strokeDashoffset = (-(scale.run(name, i) % 1000)).toFixed(2);
-    }
+    for (const { node, name } of this.wires) if (scale.runs(name)) node.style.strokeDashoffset = (-(scale.run(name, i) % 1000)).toFixed(2);
     for (const part of this.parts) this.drawPart(part, shift, i);
-    this.onmove(shift);
+    this.pose(shift, (node) => scale.angle(node, i));
     this.svg.closest('.drawing')?.classList.toggle('moved', this.place > 0);
-    this.turning.show((node) => scale.angle(node, i));
-    // Labels are measured when something first moves: it makes the browser lay out the page.
-    if (this.labels || this.wires.some(({ name }) => shift(name) !== 0)) (this.labels ??= new Labels(this.svg, this.parts, farthestShift)).place(shift);
     for (const kind of Object.keys(arrowsOf)) {
       if (this.shows(kind)) this.makeArrows(kind).show(i, shift);
       if (this.arrows[kind]) this.arrows[kind].host.style.display = this.shows(kind) ? '' : 'none';
