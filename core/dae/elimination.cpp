@@ -25,8 +25,11 @@ Elimination::Elimination(const Pattern& pattern) : pattern_(pattern), factor_(st
 Elimination::~Elimination() = default;
 
 bool Elimination::factorise(const std::vector<double>& values) {
-  if (!scale(values)) return false;
-  return factor_->dense ? factorise_dense(values) : factorise_sparse(values);
+  if (values == factorised_) return true;
+  factorised_.clear();
+  if (!scale(values) || !(factor_->dense ? factorise_dense(values) : factorise_sparse(values))) return false;
+  factorised_ = values;
+  return true;
 }
 
 /// Rows and unknowns have different units (N, m/s): each row is divided by its largest entry, and then each column, so that
@@ -74,7 +77,10 @@ bool Elimination::factorise_sparse(const std::vector<double>& values) {
   return factor_->sparse.factorise(scaled.data());
 }
 
-void Elimination::release() { factor_->sparse.release(); }
+void Elimination::release() {
+  factor_->sparse.release();
+  std::vector<double>().swap(factorised_);
+}
 
 double Elimination::scaled(int row, double right) const { return right * factor_->row_scale[row]; }
 

@@ -30,6 +30,7 @@ class Elimination {
   bool factorise_sparse(const std::vector<double>& values);
 
   const Pattern& pattern_;
+  std::vector<double> factorised_;  ///< Values of the matrix that is factorised; empty if none is. Between two events those of a linear network stay.
   std::unique_ptr<Factor> factor_;
 };
 

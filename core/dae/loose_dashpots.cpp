@@ -1,12 +1,10 @@
 #include "core/dae/loose_dashpots.hpp"
 
-#include <Eigen/Core>
 #include <cmath>
 #include <limits>
 
 #include "core/base/index.hpp"
 #include "core/base/numerics.hpp"
-#include "core/nonsmooth/conductances.hpp"
 
 namespace rheonet {
 
@@ -30,6 +28,12 @@ LooseDashpots::LooseDashpots(const Network& network, const Structure& structure,
       dashpots_.push_back({r, a, c, damping});
     }
   }
+  for (std::size_t k = 0; k < nodes_.size(); ++k) conductances_.push_back({static_cast<int>(k), -1, 0});
+  for (const Dashpot& one : dashpots_) conductances_.push_back({one.a, one.b, 0});
+  potential_.resize(static_cast<Eigen::Index>(nodes_.size()));
+  rounding_.resize(dashpots_.size());
+  change_.resize(dashpots_.size());
+  network_ = ConductanceNetwork(conductances_, potential_.size());
 }
 
 double LooseDashpots::roundoff_of(const Dashpot& dashpot, const Nodes& nodes) const {
@@ -37,36 +41,32 @@ double LooseDashpots::roundoff_of(const Dashpot& dashpot, const Nodes& nodes) co
   return numerics::newton_velocity_ulps * std::numeric_limits<double>::epsilon() * dashpot.damping * (std::abs(nodes.velocity[at(b.a)]) + std::abs(nodes.velocity[at(b.b)]));
 }
 
-void LooseDashpots::balance(const Nodes& nodes, std::vector<double>& rate_force, std::vector<double>& nodal) const {
-  Eigen::VectorXd potential(static_cast<Eigen::Index>(nodes_.size()));
-  std::vector<Conductance> conductances;
+void LooseDashpots::balance(const Nodes& nodes, std::vector<double>& rate_force, std::vector<double>& nodal) {
   bool balanced = true;
   for (std::size_t k = 0; k < nodes_.size(); ++k) {
     const std::size_t n = at(nodes_[k]);
     const double imbalance = nodal[n] - nodes.applied[n];
     const double rounding = numerics::sum_ulps * std::numeric_limits<double>::epsilon() * (nodes.magnitude[n] + std::abs(nodes.applied[n]));
-    potential[static_cast<Eigen::Index>(k)] = -imbalance;
-    conductances.push_back({static_cast<int>(k), -1, rounding * rounding});
+    potential_[static_cast<Eigen::Index>(k)] = -imbalance;
+    conductances_[k].value = rounding * rounding;
     balanced = balanced && std::abs(imbalance) <= rounding;
   }
   if (balanced) return;
-  for (const Dashpot& one : dashpots_) {
-    const double rounding = roundoff_of(one, nodes);
-    conductances.push_back({one.a, one.b, rounding * rounding});
+  for (std::size_t k = 0; k < dashpots_.size(); ++k) {
+    rounding_[k] = roundoff_of(dashpots_[k], nodes);
+    conductances_[nodes_.size() + k].value = rounding_[k] * rounding_[k];
   }
-  if (!solve_conductances(conductances, potential)) return;
-  const auto at_node = [&](int place) { return place < 0 ? 0 : potential[place]; };
-  std::vector<double> change;
-  for (const Dashpot& one : dashpots_) {
-    const double rounding = roundoff_of(one, nodes);
-    change.push_back(rounding * rounding * (at_node(one.a) - at_node(one.b)));
-    if (!(std::abs(change.back()) <= rounding)) return;
+  if (!network_.solve(conductances_, potential_)) return;
+  const auto at_node = [&](int place) { return place < 0 ? 0 : potential_[place]; };
+  for (std::size_t k = 0; k < dashpots_.size(); ++k) {
+    change_[k] = rounding_[k] * rounding_[k] * (at_node(dashpots_[k].a) - at_node(dashpots_[k].b));
+    if (!(std::abs(change_[k]) <= rounding_[k])) return;
   }
   for (std::size_t k = 0; k < dashpots_.size(); ++k) {
     const Branch& b = structure_->rates[dashpots_[k].rate];
-    rate_force[dashpots_[k].rate] += change[k];
-    nodal[at(b.a)] += change[k];
-    nodal[at(b.b)] -= change[k];
+    rate_force[dashpots_[k].rate] += change_[k];
+    nodal[at(b.a)] += change_[k];
+    nodal[at(b.b)] -= change_[k];
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include "core/network/network.hpp"
 #include "core/network/structure.hpp"
+#include "core/nonsmooth/conductances.hpp"
 
 namespace rheonet {
 
@@ -25,7 +26,7 @@ class LooseDashpots {
   /// For each node: sum of the magnitudes of the forces there, the external ones, and the velocity.
   struct Nodes { const std::vector<double>&magnitude, &applied, &velocity; };
   /// Corrects the forces of the rate branches, and with them the sums of forces at the nodes, `nodal`.
-  void balance(const Nodes& nodes, std::vector<double>& rate_force, std::vector<double>& nodal) const;
+  void balance(const Nodes& nodes, std::vector<double>& rate_force, std::vector<double>& nodal);
 
  private:
   /// `a` and `b` are the indices of its ends in `nodes_`; -1 for a mass or a prescribed motion.
@@ -35,6 +36,10 @@ class LooseDashpots {
   const Structure* structure_ = nullptr;
   std::vector<Dashpot> dashpots_;
   std::vector<NodeId> nodes_;  ///< Massless ones.
+  ConductanceNetwork network_;
+  std::vector<Conductance> conductances_;  ///< From each node to the held one, then of each dashpot.
+  Eigen::VectorXd potential_;              ///< Of each node.
+  std::vector<double> rounding_, change_;  ///< Of each dashpot's force.
 };
 
 }  // namespace rheonet

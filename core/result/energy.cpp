@@ -34,6 +34,8 @@ void EnergyAccount::attach(Dae& dae, Consistency& consistency) {
               any_between_given(structure.sliders) ||
               std::any_of(network.masses.begin(), network.masses.end(),
                           [&](const Network::Mass& m) { return given(m.node) && !at_rest(m.node); });
+  const Inputs& inputs = dae.inputs();
+  hidden_ = adaptive_ && (inputs.fastest() > 0 || std::isfinite(inputs.next_signal_break()) || !network.blocks.blocks.empty());
 }
 
 void EnergyAccount::begin(double t, const std::vector<double>& y, const std::vector<double>& yp, double heat) {
@@ -89,7 +91,7 @@ void EnergyAccount::remember(double t, const Power& power) {
 // Integrates Newton's polynomial through the last step ends by Gauss's four-point rule, which is exact for it. Its last
 // term, the difference to a polynomial with one point less, bounds the error. Over the run it may sum to the tolerance.
 std::optional<EnergyAccount::Power> EnergyAccount::from_past(double a, double b) const {
-  if (known_ < remembered || adaptive_ || solved_between_steps()) return {};
+  if (known_ < remembered || hidden_ || solved_between_steps()) return {};
   constexpr std::size_t points = 4;
   constexpr std::array<double, points> abscissae{0.33998104358485626, -0.33998104358485626, 0.86113631159405258, -0.86113631159405258};
   constexpr std::array<double, points> weights{0.65214515486254614, 0.65214515486254614, 0.34785484513745386, 0.34785484513745386};

@@ -14,8 +14,8 @@ namespace rheonet {
 /// The energy account of a run: power, integrated over each step. If the powers at the last seven step ends lie on a
 /// polynomial, its integral is used, without further evaluations. Otherwise the 4-point Lobatto rule integrates the powers
 /// along the integrator's polynomial. An element driven at all its ends needs the adaptive 7-point Kronrod extension of that
-/// rule (Gander and Gautschi, BIT 40 (2000) 84), because its motion does not limit the steps. Laws that know their heat in
-/// closed form provide it.
+/// rule (Gander and Gautschi, BIT 40 (2000) 84), because its motion does not limit the steps: at every step while an input
+/// oscillates or will change its course, otherwise until it lies on a polynomial. Laws that know their heat in closed form provide it.
 class EnergyAccount {
  public:
   /// `tolerance` is relative to the largest energy so far; `length` of the run [s].
@@ -51,7 +51,8 @@ class EnergyAccount {
   Dae* dae_ = nullptr;
   Consistency* consistency_ = nullptr;
   double tolerance_, length_;
-  bool adaptive_ = false;
+  bool adaptive_ = false;  ///< an element is driven at all its ends
+  bool hidden_ = false;    ///< its motion may vary between steps in a way that their ends do not show
   bool needs_rates_ = true;
   bool begun_ = false;
   Power sum_, last_;  ///< last_: power at the end of the last step, or at the last `begin`

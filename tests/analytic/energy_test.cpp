@@ -130,6 +130,23 @@ TEST_CASE("Energy of a mass on an undamped spring") {
   CHECK_EQ(summary.largest, doctest::Approx(start).epsilon(1e-5));
 }
 
+// The motions of the ends do not limit the steps: the force may come within a part of one, or take many.
+TEST_CASE("Energy of an element between prescribed motions, beside a swing that sets the steps") {
+  const double w = -0.731;
+  const std::string swing = mass + spring + "[nodes]\nend = { position = 0.0271 }\n";
+  for (const double tau : {3e-8, 2.3e-4, 0.031, 7.9}) {
+    CAPTURE(tau);
+    const double decay = std::exp(-stop / tau), f = B * w * (1 - decay), stored = 0.5 * f * f * tau / B;
+    const double supplied = B * w * w * (stop + tau * std::expm1(-stop / tau));
+    const std::string lagging = fmt::format("vfm = {{ type = \"vfm\", between = [\"belt\", \"ground\"], damping = \"B\", stiffness = \"B/{}\" }}\n", tau);
+    const std::string belt = fmt::format("belt = {{ type = \"motion\", at = \"belt\", velocity = {} }}\n", w);
+    for (const char* method : {"ida", "auto"}) {
+      CAPTURE(method);
+      check_account(scene(belt + lagging + swing) + fmt::format("method = \"{}\"\n", method), {supplied, stored, supplied - stored});
+    }
+  }
+}
+
 TEST_CASE("Energy balance of larger networks") {
   const std::string sine =
       "drive = { type = \"motion\", at = \"end\", velocity = { sine = 0.173, frequency = 2.3 } }\n";
