@@ -11,7 +11,7 @@ const RegisterComponent register_force({
             .rotational_type = "torque",
             .ports = Declaration::Ports::at_or_between,
             .parameters = {{.name = "force", .quantity = Quantity::force, .kind = Parameter::Kind::signal,
-                            .from_block = true, .rotational_name = "torque", .symbol = "F",
+                            .from_block = true, .rotational_name = "torque", .symbol = "F", .other_names = {"magnitude", "value"},
                             .description = "force over time, applied at the node in the positive direction; between two "
                                            "nodes: + at the first, - at the second"}},
             .summary = "applies a force",

@@ -12,10 +12,10 @@ const RegisterComponent register_motion({
             .parameters =
                 {
                     {.name = "position", .quantity = Quantity::position, .kind = Parameter::Kind::signal,
-                     .from_block = true, .symbol = "x",
+                     .from_block = true, .symbol = "x", .other_names = {"displacement"},
                      .description = "position of the node over time"},
                     {.name = "velocity", .quantity = Quantity::velocity, .kind = Parameter::Kind::signal,
-                     .from_block = true, .symbol = "v",
+                     .from_block = true, .symbol = "v", .other_names = {"speed"},
                      .description = "velocity of the node over time; it starts from the node's initial position"},
                     {.name = "acceleration", .quantity = Quantity::acceleration, .kind = Parameter::Kind::signal,
                      .from_block = true, .symbol = "a",

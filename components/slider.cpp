@@ -45,7 +45,7 @@ const RegisterComponent register_slider({
             .other_names = {"friction", "coulomb", "dry_friction", "brake", "clutch", "bearing"},
             .ports = Declaration::Ports::between,
             .parameters = {{.name = "coulomb", .quantity = Quantity::force, .lower_open = false, .may_be_infinite = true, .over = Quantity::velocity, .may_vary = true, .may_be_curve = true,
-                            .coefficient_with = "normal", .from_block = true, .symbol = "Fc", .other_names = {"mu", "friction", "kinetic", "dynamic", "sliding"},
+                            .coefficient_with = "normal", .from_block = true, .symbol = "Fc", .other_names = {"mu", "friction", "kinetic", "dynamic", "sliding", "force"},
                             .description = "force of sliding; 0 means no force, inf a rigid link; with `normal`, the coefficient of friction"},
                            {.name = "breakaway", .quantity = Quantity::force, .lower_open = false, .may_be_infinite = true, .may_vary = true,
                             .coefficient_with = "normal", .same_as = "coulomb", .from_block = true, .symbol = "Fs", .other_names = {"static", "stiction", "mu_s", "mus"},

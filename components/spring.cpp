@@ -43,13 +43,13 @@ const RegisterComponent register_spring({
             .ports = Declaration::Ports::between,
             .parameters =
                 {
-                    {.name = "stiffness", .quantity = Quantity::stiffness, .lower_open = false, .may_be_infinite = true, .may_vary = true, .from_block = true, .symbol = "k", .other_names = {"rate", "c"},
+                    {.name = "stiffness", .quantity = Quantity::stiffness, .lower_open = false, .may_be_infinite = true, .may_vary = true, .from_block = true, .symbol = "k", .other_names = {"rate", "c", "constant"},
                      .description = "force per displacement; 0 means no spring, inf a rigid link"},
                     {.name = "rest", .quantity = Quantity::position, .fallback = 0.0,
-                     .lower = -std::numeric_limits<double>::infinity(), .symbol = "d0", .other_names = {"length", "s_rel0"},
+                     .lower = -std::numeric_limits<double>::infinity(), .symbol = "d0", .other_names = {"length", "s_rel0", "x0"},
                      .description = "displacement at which the spring is free of force"},
                     {.name = "f0", .quantity = Quantity::force, .kind = Parameter::Kind::initial,
-                     .lower = -std::numeric_limits<double>::infinity(), .symbol = "f0",
+                     .lower = -std::numeric_limits<double>::infinity(), .symbol = "f0", .other_names = {"preload"},
                      .description = "force at the start; given, it takes the place of `rest`"},
                     {.name = "d0", .quantity = Quantity::position, .kind = Parameter::Kind::initial,
                      .lower = -std::numeric_limits<double>::infinity(), .symbol = "d",

@@ -174,9 +174,9 @@ const RegisterComponent register_stop({
             .ports = Declaration::Ports::between,
             .parameters =
                 {
-                    {.name = "lower", .quantity = Quantity::position, .lower = -unbounded, .optional = true, .turned = "upper", .symbol = "d1",
+                    {.name = "lower", .quantity = Quantity::position, .lower = -unbounded, .optional = true, .turned = "upper", .symbol = "d1", .other_names = {"min"},
                      .description = "smallest displacement without contact; absent: no stop on this side"},
-                    {.name = "upper", .quantity = Quantity::position, .lower = -unbounded, .optional = true, .turned = "lower", .symbol = "d2",
+                    {.name = "upper", .quantity = Quantity::position, .lower = -unbounded, .optional = true, .turned = "lower", .symbol = "d2", .other_names = {"max", "gap"},
                      .description = "largest displacement without contact; absent: no stop on this side"},
                     {.name = "stiffness", .quantity = Quantity::stiffness, .lower_open = false, .may_be_infinite = true, .may_vary = true, .from_block = true, .symbol = "k",
                      .description = "force per displacement beyond a bound; 0 means no stop, inf a rigid one"},

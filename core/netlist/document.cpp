@@ -226,7 +226,11 @@ std::string describe(const TomlValue& value) {
 }
 
 std::optional<TomlValue> parse_toml(int file, const Sources& sources, DiagnosticList& diagnostics) {
-  const std::string& text = sources.files[static_cast<std::size_t>(file)].text;
+  const auto& [path, text, role] = sources.files[static_cast<std::size_t>(file)];
+  if (role == Sources::Role::scene && path.extension() == ".csv") {
+    diagnostics.error({file, 1, 1}, "this is a CSV file, and a scene is a TOML file", "`rheonet plot` draws CSV files");
+    return {};
+  }
   if (!scan_toml(text, file, diagnostics)) return {};
   try {
     return convert(toml::parse(text), file);

@@ -87,7 +87,7 @@ Number ExpressionRules::look_up(const ExpressionCode::Variable& variable, const 
   const bool may_be_unit = environment.known.empty() || meant.empty();  // "u2" beside "u1" is no unit of mass
   if (may_be_unit && std::holds_alternative<Unit>(parse_unit(name)))
     fail(at, fmt::format("there is no parameter `{}`, and a unit cannot stand in an expression", name),
-         environment.known.empty() ? fmt::format("a quantity is one number, a space and a unit: \"0.5 {}\"; give it a name in `[parameters]`, and use that here", name) : environment.known);
+         environment.known.empty() ? fmt::format("`[parameters]` may define it: {0} = ...; as a unit it stands behind one number and a space, \"0.5 {0}\", and never in an expression", name) : environment.known);
   const std::string known = environment.known.empty() && meant.empty() ? "it must be a parameter" : environment.known;
   fail(at, fmt::format("unknown name `{}`", name), (meant.empty() ? "" : fmt::format("did you mean `{}`?", meant) + (known.empty() ? "" : " ")) + known);
 }

@@ -6,6 +6,7 @@
 #include <array>
 #include <initializer_list>
 #include <string_view>
+#include <utility>
 
 #include "core/netlist/characters.hpp"
 
@@ -29,6 +30,15 @@ bool expect_kind(const TomlValue& value, TomlValue::Kind kind, const char* kind_
 /// The name of a start value in this format, by its name in rotation.
 std::string_view start_value_called(std::string_view key) { return key == "angle" ? "position" : key == "angular_velocity" ? "velocity" : key; }
 
+/// The key that stands here for one of other programs; empty if none of the known ones does.
+std::string_view key_called(std::string_view other, const std::vector<std::string>& known) {
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 12> names{{{"end", "stop"}, {"t_end", "stop"}, {"tolerance", "accuracy"}, {"tol", "accuracy"},
+      {"step", "every"}, {"dt", "every"}, {"initial", "nodes"}, {"start", "time"}, {"begin", "time"}, {"at", "time"}, {"delay", "time"}, {"freq", "frequency"}}};
+  for (const auto& [theirs, ours] : names)
+    if (theirs == other && std::find(known.begin(), known.end(), ours) != known.end()) return ours;
+  return "";
+}
+
 /// The right place of a key that is often misplaced; empty for all other keys.
 std::string place_of(std::string_view key) {
   const auto among = [&](std::initializer_list<std::string_view> reader) { return std::find(reader.begin(), reader.end(), key) != reader.end(); };
@@ -38,10 +48,14 @@ std::string place_of(std::string_view key) {
   return "";
 }
 
+bool is_element(const TomlEntry& entry) {
+  return entry.value.is_table() && (entry.value.find("type") || entry.value.find("series") || entry.value.find("parallel"));
+}
+
 /// A hint for a key that its table does not have; empty if nothing is known.
 std::string remedy_for(const TomlEntry& entry, const std::vector<std::string>& known) {
   const auto has = [&](std::string_view key) { return std::find(known.begin(), known.end(), key) != known.end(); };
-  if (entry.value.is_table() && (entry.value.find("type") || entry.value.find("series") || entry.value.find("parallel")))
+  if (is_element(entry))
     return fmt::format("this is an element below the header of another table: move it above that header, or write [elements.{}]", entry.key);
   if (entry.key == "period" && has("frequency")) return "`frequency` is 1/period: a period of 0.5 s is frequency = \"2 Hz\"";
   const std::string_view called = start_value_called(entry.key);
@@ -58,7 +72,7 @@ const TomlEntry* TableReader::require(std::string_view key, Spot where, std::str
   return entry;
 }
 
-void TableReader::finish(DiagnosticList& diagnostics, const std::function<std::string(std::string_view)>& key_called) const {
+void TableReader::finish(DiagnosticList& diagnostics, const std::function<std::string(std::string_view)>& own_name) const {
   const auto asked_for = [&](const TomlEntry& entry) {
     return std::find(known_.begin(), known_.end(), entry.key) != known_.end() || std::find(silent_.begin(), silent_.end(), entry.key) != silent_.end();
   };
@@ -67,11 +81,18 @@ void TableReader::finish(DiagnosticList& diagnostics, const std::function<std::s
   std::vector<std::string> known;
   for (const std::string_view key : known_)
     if (std::find(known.begin(), known.end(), key) == known.end()) known.emplace_back(key);
+  const auto has_no_header = [&](std::string_view name) { return std::find(known.begin(), known.end(), name) != known.end() && !table_.find(name); };
   for (const TomlEntry& entry : table_.entries) {
     if (asked_for(entry)) continue;
-    std::string meant = key_called ? key_called(entry.key) : "";
-    if (table_.find(meant)) meant.clear();
-    const std::string remedy = meant.empty() ? remedy_for(entry, known) : fmt::format("`{}` is called `{}` here", entry.key, meant);
+    if (is_element(entry) && has_no_header("elements")) {
+      if (std::find(mistyped.begin(), mistyped.end(), "elements") == mistyped.end())
+        diagnostics.error(entry.spot, fmt::format("`{}` is an element, but no line [elements] stands above it", entry.key), "write [elements] above the elements");
+      mistyped.push_back("elements");
+      continue;
+    }
+    std::string meant = own_name ? own_name(entry.key) : "";
+    if (meant.empty()) meant = key_called(entry.key, known);
+    const std::string remedy = meant.empty() ? remedy_for(entry, known) : fmt::format("`{}` is called `{}` here{}", entry.key, meant, table_.find(meant) ? ", which is given too" : "");
     mistyped.push_back(meant.empty() ? nearest(entry.key, known) : meant);
     diagnostics.error(entry.spot, "unknown key `" + entry.key + "` of " + what_,
                    remedy.empty() ? did_you_mean(entry.key, known, "its keys are " + list_names(known, "and")) : remedy);

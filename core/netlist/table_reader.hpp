@@ -37,8 +37,8 @@ class TableReader {
     return table_.find(key);
   }
   /// Reports unknown and missing keys. A missing key that is the known name nearest to an unknown key is not reported as
-  /// well. `key_called` gives the key that has the name of an unknown one elsewhere ("" if none): asked only where there are unknown keys.
-  void finish(DiagnosticList& diagnostics, const std::function<std::string(std::string_view)>& key_called = {}) const;
+  /// well. `own_name` gives the key that has the name of an unknown one elsewhere ("" if none): asked only where there are unknown keys.
+  void finish(DiagnosticList& diagnostics, const std::function<std::string(std::string_view)>& own_name = {}) const;
 
  private:
   const TomlValue& table_;

@@ -155,7 +155,7 @@ scene.toml:12:14: error: check `named`: unknown name `bound`
 scene.toml:13:16: error: check `unit`: there is no parameter `mm`, and a unit cannot stand in an expression
    13 | unit  = "a < 3 mm"
       |                ^
-  a quantity is one number, a space and a unit: "0.5 mm"; give it a name in `[parameters]`, and use that here
+  `[parameters]` may define it: mm = ...; as a unit it stands behind one number and a space, "0.5 mm", and never in an expression
 )~");
   check_all({{"a table that is none", R"~(
 check = "n < 3"
