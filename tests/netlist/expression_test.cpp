@@ -198,7 +198,7 @@ TEST_CASE("what is neither a quantity nor an expression is refused with a way ou
   CHECK(refusal("3 N*mx").offset == 4);
   CHECK(refusal("  3 N*mx").offset == 6);
   CHECK(refusal("").message == "an empty text is no value");
-    CHECK(refusal("2*mm").hint == "`[parameters]` may define it: mm = ...; as a unit it stands behind one number and a space, \"0.5 mm\", and never in an expression");
+  CHECK(refusal("2*mm").hint == "`[parameters]` may define it: mm = ...; as a unit it stands behind one number and a space, \"0.5 mm\", and never in an expression");
   error = refusal("2*omgea + L");
   CHECK(error.message == "unknown name `omgea`");
   CHECK(error.hint == "did you mean `omega`?");
