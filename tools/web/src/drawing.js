@@ -28,6 +28,8 @@ export class Drawing {
       onconnect: (name, from, target) => this.connect(name, from, target),
       onremove: (name) => this.remove(name),
       pullOf: (name) => pullOf(this.desk, name),
+      isPlacing: () => Boolean(this.placing),
+      onspan: (from, to) => this.span(from, to),
     });
     this.inspector = new Inspector(this, cards);
     this.build(bar);
@@ -242,6 +244,12 @@ export class Drawing {
     placing.nodes.push(chosen);
     if (placing.nodes.length < placing.ports.length) this.ask();
     else this.place();
+  }
+
+  // The element that is placed was drawn from one node to another; an element at one node is placed where the line ends.
+  span(from, to) {
+    if (this.placing.ports.length > 1) this.take({ node: from });
+    if (this.placing) this.take({ node: to });
   }
 
   place() {

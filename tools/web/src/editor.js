@@ -3,7 +3,7 @@ import { defaultKeymap, history, historyKeymap, isolateHistory, redo, undo } fro
 import { bracketMatching, HighlightStyle, StreamLanguage, syntaxHighlighting } from '@codemirror/language';
 import { toml } from '@codemirror/legacy-modes/mode/toml';
 import { lintGutter, lintKeymap, setDiagnostics } from '@codemirror/lint';
-import { EditorState } from '@codemirror/state';
+import { Annotation, EditorState } from '@codemirror/state';
 import { drawSelection, EditorView, highlightActiveLine, highlightActiveLineGutter, keymap, lineNumbers } from '@codemirror/view';
 import { tags } from '@lezer/highlight';
 import { t } from './messages.js';
@@ -32,6 +32,8 @@ const look = EditorView.theme({
   '.cm-tooltip': { backgroundColor: 'var(--paper)', color: 'var(--ink)', border: '1px solid var(--line)' },
 });
 
+const sliding = Annotation.define(); // A change by a slider, a preset or a pull. Undo takes those that follow each other at once as one.
+
 export class Editor {
   // onchange(text, byUser, isOther, byHand): `isOther`: another text has taken the place of all of it; `byHand`: not by a slider or a preset; onmove(changes): positions have moved;
   // onundo(): returns whether it has undone something other than a change of the text; `extensions`: of CodeMirror.
@@ -57,7 +59,7 @@ export class Editor {
           let isOther = false;
           const { length } = update.startState.doc;
           update.changes.iterChangedRanges((from, to) => (isOther ||= length > 0 && from === 0 && to === length));
-          this.onchange(this.text, !this.quiet, isOther, update.transactions.some((each) => each.docChanged && !['slide', 'undo', 'redo'].some((kind) => each.isUserEvent(kind))));
+          this.onchange(this.text, !this.quiet, isOther, update.transactions.some((each) => each.docChanged && !each.annotation(sliding) && !['undo', 'redo'].some((kind) => each.isUserEvent(kind))));
         }),
       ],
     });
@@ -79,7 +81,7 @@ export class Editor {
 
   replaceAll(changes) {
     this.quiet = true;
-    this.view.dispatch({ changes, userEvent: 'slide' });
+    this.view.dispatch({ changes, annotations: sliding.of(true) });
     this.quiet = false;
   }
 

@@ -8,7 +8,7 @@ import { lessonFileOf } from './lesson-text.js';
 import { titleOf } from './lesson.js';
 import { decode, encode } from './link.js';
 import { t } from './messages.js';
-import { isReachable, showCode, unreachable } from './qr-dialog.js';
+import { isReachable, showCode, showFrame, unreachable } from './qr-dialog.js';
 import { SaveDialog } from './save-dialog.js';
 
 const pause = 400; // Delay after a change until it is kept [ms]: browsers limit the rate of writes to the history.
@@ -19,7 +19,7 @@ export class Files {
   constructor(desk) {
     this.desk = desk;
     this.folder = { scenes: [], may_be_written: false };
-    this.gallery = new Gallery({ onopen: (file, isLesson) => this.openFile(file, true, isLesson), onnew: () => this.desk.beginAnew() });
+    this.gallery = new Gallery({ onopen: (file, isLesson) => this.openFile(file, true, isLesson), ontext: (file, text) => this.openText(file, text), onnew: () => this.desk.beginAnew() });
     this.saving = new SaveDialog();
     this.writing = new LessonDialog({ ondone: (text) => this.preview(text) });
     addEventListener('popstate', (event) => {
@@ -85,6 +85,7 @@ export class Files {
       if (anew) this.keep();
       this.nameInAddress(file, anew, lesson);
       this.desk.begin({ scenes: [{ text, file, version }], lesson });
+      scrollTo(0, 0);
       return true;
     } catch (error) {
       this.desk[anew ? 'say' : 'notify'](`${file}: ${error.message}`, true);
@@ -112,6 +113,13 @@ export class Files {
     const { current, course } = this.desk;
     const { text, opened, file, version, lesson, byHand } = current;
     return { text: course.isOn && !byHand ? opened : text, file, version, lesson };
+  }
+
+  // A file of this machine, which the folder does not hold.
+  openText(file, text) {
+    this.leave();
+    this.desk.begin({ scenes: [{ text, file }] });
+    scrollTo(0, 0);
   }
 
   // Makes a lesson of the netlist, or edits the one that it has.
@@ -227,7 +235,7 @@ export class Files {
     const drawn = desk.plots.runs.map(({ text, file }, k) => ({ text, file, curves: curves[k] }));
     return exporters({ scenes, active: desk.active, drawn, schematic: desk.current.data.scene?.schematic ?? '', name: this.name })
       .map((exporter) => ({ label: exporter.label, act: () => this.export(exporter) }))
-      .concat({ label: t('Link as a QR code'), act: () => this.showCode() });
+      .concat({ label: t('Link as a QR code'), act: () => showCode(this.putInAddress()) }, { label: t('Code for another page …'), act: () => showFrame(this.putInAddress()) });
   }
 
   async export({ make, name }) {
@@ -251,10 +259,6 @@ export class Files {
     const link = `${this.folder.link ?? ''}${hash}`;
     history.replaceState(history.state, '', link.startsWith(location.origin) ? link : hash);
     return this.folder.link ? link : location.href;
-  }
-
-  showCode() {
-    showCode(this.putInAddress());
   }
 
   async copyLink() {

@@ -12,13 +12,16 @@ function shape(tag, attributes) {
 export class Handles {
   // onpick(target): something was clicked, or chosen with Enter; onconnect(element, from, target): the end of an element that was at
   // the node `from` was dropped on a target; onremove(element): the Delete key. A target is { element }, { node }, or {} for a free
-  // place. pullOf(element): what happens while an element is dragged, { move(px), end() }, or null.
-  constructor(host, { onpick, onconnect, onremove, pullOf }) {
+  // place. pullOf(element): what happens while an element is dragged, { move(px), end() }, or null. isPlacing(): a new element is being
+  // placed; onspan(from, to): it was drawn from one node to another, undefined for a new node.
+  constructor(host, { onpick, onconnect, onremove, pullOf, isPlacing, onspan }) {
     this.host = host;
     this.onpick = onpick;
     this.onconnect = onconnect;
     this.onremove = onremove;
     this.pullOf = pullOf;
+    this.isPlacing = isPlacing;
+    this.onspan = onspan;
     this.place = 0; // which handle the Tab key reaches
     this.buttons = [];
     this.moving = []; // the handles, with the nodes that their sides go with
@@ -183,8 +186,9 @@ export class Handles {
     const end = event.target.closest('.end-handle');
     const part = event.target.closest('.pulls, .mass, .force, .motion');
     if (event.button !== 0) return;
-    if (end) event.preventDefault();
-    if (end) this.drag(event, this.reconnecting(end));
+    if (end || this.isPlacing()) event.preventDefault(); // The drawing stays in place.
+    if (this.isPlacing()) this.drag(event, this.spanning(event.clientX, event.clientY));
+    else if (end) this.drag(event, this.reconnecting(end));
     else if (part) this.drag(event, this.pulling(this.pullOf(part.dataset.of ?? part.dataset.element), event.clientX));
   }
 
@@ -192,21 +196,38 @@ export class Handles {
     return pull && { move: (x) => pull.move(x - from), finish: (isDragged) => isDragged && pull.end() };
   }
 
-  reconnecting(end) {
+  // The node at a place of the window: that of an element is its nearer end. { } for a free place, null outside the drawing.
+  nodeAt(x, y) {
+    const target = this.at(x, y);
+    return target?.element ? { node: this.nearestEnd(target.element, x, y) } : target;
+  }
+
+  // A line from a place of the drawing to the mouse; ondrop(target) where it ends.
+  stretching(from, ondrop) {
     const { svg, line } = this;
     const inDrawing = (x, y) => new DOMPoint(x, y).matrixTransform(svg.getScreenCTM().inverse());
+    const begin = from(inDrawing);
     return {
       move(clientX, clientY) {
         const { x, y } = inDrawing(clientX, clientY);
-        line.setAttribute('d', `M${end.getAttribute('cx')} ${end.getAttribute('cy')}L${x} ${y}`);
-        line.setAttribute('visibility', 'visible');
+        line?.setAttribute('d', `M${begin.x} ${begin.y}L${x} ${y}`);
+        line?.setAttribute('visibility', 'visible');
       },
       finish: (isDragged, { type, clientX, clientY }) => {
-        line.setAttribute('visibility', 'hidden');
-        const target = isDragged && type === 'pointerup' ? this.at(clientX, clientY) : null;
-        if (target) this.onconnect(end.dataset.endOf, end.dataset.at, target.element ? { node: this.nearestEnd(target.element, clientX, clientY) } : target);
+        line?.setAttribute('visibility', 'hidden');
+        const target = isDragged && type === 'pointerup' ? this.nodeAt(clientX, clientY) : null;
+        if (target) ondrop(target);
       },
     };
+  }
+
+  reconnecting(end) {
+    return this.stretching(() => ({ x: end.getAttribute('cx'), y: end.getAttribute('cy') }), (target) => this.onconnect(end.dataset.endOf, end.dataset.at, target));
+  }
+
+  spanning(x, y) {
+    const from = this.nodeAt(x, y) ?? {};
+    return this.svg?.isConnected ? this.stretching((inDrawing) => inDrawing(x, y), (to) => this.onspan(from.node, to.node)) : null;
   }
 
   drag(event, act) {

@@ -9,6 +9,8 @@ const usual = 24; // Otherwise the scale gives the median motion this size [px].
 const turnsPerSecond = 1; // Largest speed of rotation on the screen, if the run is played in `playing` seconds.
 const playing = 8; // [s]
 
+const frictions = new Set(['slider', 'sfm', 'cfm']);
+
 const median = (values) => [...values].sort((a, b) => a - b)[Math.floor((values.length - 1) / 2)];
 
 // The largest 1, 2 or 5 times a power of ten that is not above a value.
@@ -67,7 +69,8 @@ export class MotionScale {
     }
   }
 
-  // Groups the nodes between which no element stretches beyond `room`. The mean motion of a group that leaves the drawing is subtracted.
+  // Groups the nodes between which no element stretches beyond `room`. From a group that leaves the drawing the motion of one of its nodes is
+  // subtracted: of one that rubs on what is outside, so that it is at rest while it sticks, or else of a mass; the mean motion if there is none.
   follow() {
     const top = (node) => {
       let at = node;
@@ -90,8 +93,12 @@ export class MotionScale {
     for (const [first, nodes] of groups) {
       const columns = nodes.map((node) => this.lengths.get(node));
       if (first === 'ground' || this.px * largestOf(columns) <= room) continue;
-      const mean = columns[0].map((_, k) => columns.reduce((sum, column) => sum + column[k], 0) / columns.length);
-      for (const node of nodes) this.drift.set(node, mean);
+      const { elements } = this.data.scene;
+      const rubs = (node) => elements.some(({ type, a, b }) => frictions.has(type) && b && [a, b].includes(node) && !(nodes.includes(a) && nodes.includes(b)));
+      const isMass = (node) => elements.some(({ type, a }) => type === 'mass' && a === node);
+      const middle = nodes.find(rubs) ?? nodes.find(isMass);
+      const drift = middle ? this.lengths.get(middle) : columns[0].map((_, k) => columns.reduce((sum, column) => sum + column[k], 0) / columns.length);
+      for (const node of nodes) this.drift.set(node, drift);
     }
   }
 
@@ -122,7 +129,7 @@ export class MotionScale {
     return Math.min(room, Math.max(-room, far));
   }
 
-  // Subtracted mean motion of the group of a node [px]; 0 for a group that stays in the drawing.
+  // Subtracted motion of the group of a node [px]; 0 for a group that stays in the drawing.
   run(node, i) {
     const drift = this.drift.get(node);
     return drift ? this.px * this.at(drift, i) : 0;

@@ -34,6 +34,9 @@ function ofMass({ drawing, animation, editor, view }, node) {
   const record = data.records[data.index.get(`${node}.position`)];
   const [factor, unit] = inUnits[record.unit];
   const start = column[0];
+  // A position that is a parameter stays one: its value changes.
+  const given = drawing.netlist.root.at('nodes', node, 'position')?.plain;
+  const path = given && drawing.netlist.root.at('parameters', given) ? ['parameters', given] : ['nodes', node, 'position'];
   const { px } = animation.scale;
   const perPixel = record.unit === 'rad' ? turning : px > 0 ? 1 / px : whereNothingMoves;
   return {
@@ -42,7 +45,7 @@ function ofMass({ drawing, animation, editor, view }, node) {
       animation.rewind();
       animation.held = px;
       const value = Number(((start + (far / view.shown) * perPixel) * factor).toPrecision(3));
-      editor.replaceAll(drawing.netlist.set(['nodes', node, 'position'], JSON.stringify(`${value} ${unit}`)));
+      editor.replaceAll(drawing.netlist.set(path, JSON.stringify(`${value} ${unit}`)));
     },
     end() {
       animation.held = 0;

@@ -1,4 +1,4 @@
-// The address of the page as a QR code, for a phone to read.
+// The address of the page as a QR code, for a phone to read, and as code that shows it within another page.
 import { encode } from 'uqr';
 import { element } from './dom.js';
 import { t } from './messages.js';
@@ -22,15 +22,29 @@ export function isReachable(address) {
 }
 export const unreachable = () => t('Only this machine can open this address. A phone needs the page of a web site, or of `rheonet serve --host 0.0.0.0`.');
 
-export function showCode(address) {
+function show(title, ...content) {
   const dialog = element('dialog', { class: 'help', 'aria-labelledby': 'qr-title' },
-    element('div', { class: 'dialog-head' }, element('h2', { id: 'qr-title' }, t('The link as a QR code')), element('button', { type: 'button', onclick: () => dialog.close(), 'aria-label': t('Close') }, '✕')),
+    element('div', { class: 'dialog-head' }, element('h2', { id: 'qr-title' }, title), element('button', { type: 'button', onclick: () => dialog.close(), 'aria-label': t('Close') }, '✕')),
+    ...content);
+  dialog.addEventListener('close', () => dialog.remove());
+  document.body.append(dialog);
+  dialog.showModal();
+}
+
+// Schematic, plots and sliders in a frame, for a course page or a slide.
+export function showFrame(address) {
+  const [page, scene] = address.split(/#(.*)/s);
+  const text = `<iframe src="${page.replace(/\?.*/, '')}?embed#${scene}" width="100%" height="640" style="border: 0"></iframe>`;
+  const code = element('textarea', { class: 'frame-code', rows: '6', readonly: true, 'aria-label': t('Code for another page'), onfocus: () => code.select() }, text);
+  show(t('Code for another page'), element('p', { class: 'note' }, t('Copied into a page, it shows the schematic, the plots and the sliders there. A page of `rheonet serve` can be shown so only with `--framed-by`.')),
+    code, isReachable(address) ? null : element('p', { class: 'note bad' }, unreachable()));
+}
+
+export function showCode(address) {
+  show(t('The link as a QR code'),
     address.length > most
       ? element('p', { class: 'note bad' }, t('The link has {count} characters, and a QR code holds {most}. Send the link itself.', { count: address.length, most }))
       : picture(address),
     element('p', { class: 'note' }, t('The link has {count} characters, and carries the scene.', { count: address.length })),
     isReachable(address) ? null : element('p', { class: 'note bad' }, unreachable()));
-  dialog.addEventListener('close', () => dialog.remove());
-  document.body.append(dialog);
-  dialog.showModal();
 }
