@@ -292,6 +292,21 @@ test('the end of an element is dragged to another node, to ground and to a free 
   await close();
 });
 
+test('an element that is chosen is drawn by one drag from node to node, and what is there stays as it is', async () => {
+  const { page, close } = await open('#file=stick-slip.toml');
+  await draw(page);
+  const before = await netlist(page);
+  await palette(page, 'dashpot').click();
+  await redrawn(page, () => drag(page, ofNode(page, 'hand'), end(page, 's1', 'ground')));
+  assert.match(await line(page, 'dashpot1'), /between = \["hand", "ground"\]/);
+  for (const own of before.split('\n').filter((each) => /^(k1|m1|s1|pull) /.test(each))) assert.equal(await line(page, own.split(' ')[0]), own);
+  // An element at one node is placed where the line ends.
+  await palette(page, 'force').click();
+  await redrawn(page, () => drag(page, end(page, 's1', 'ground'), ofNode(page, 'block')));
+  assert.match(await line(page, 'force1'), /at = "block"/);
+  await close();
+});
+
 test('a node is renamed, started elsewhere, and joined to another one', async () => {
   const { page, close } = await open('#file=stick-slip.toml');
   const before = await netlist(page);

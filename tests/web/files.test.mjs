@@ -122,6 +122,18 @@ test('a page that is loaded anew before its netlist has come is not taken for on
   await close();
 });
 
+test('a netlist of this machine is opened, and the way back leads to the one before', async () => {
+  const { page, close } = await open();
+  const before = await netlist(page);
+  await page.getByRole('button', { name: 'Gallery' }).click();
+  await redrawn(page, () => page.locator('.gallery input[type="file"]').setInputFiles({ name: 'mine.toml', mimeType: 'application/toml', buffer: Buffer.from(before.replace(/^title = .*$/m, 'title = "Mine"')) }));
+  assert.match(await netlist(page), /title = "Mine"/);
+  assert.equal(await page.locator('.gallery').evaluate((dialog) => dialog.open), false);
+  await page.goBack();
+  await page.waitForFunction((text) => [...document.querySelectorAll('.cm-line')].map((line) => line.textContent).join('\n') === text, before);
+  await close();
+});
+
 test('changes that nobody has saved are there again after the page is loaded anew, and behind the way back', async () => {
   const { page, close } = await open();
   await stiffness(page, 150);

@@ -84,6 +84,19 @@ test('the QR code holds the address', async () => {
   await close();
 });
 
+test('the code for another page shows the scene in a frame', async () => {
+  const { page, close } = await open();
+  await page.locator('button', { hasText: 'Export' }).click();
+  await page.getByRole('menuitem', { name: 'Code for another page' }).click();
+  const code = await page.getByLabel('Code for another page').last().inputValue();
+  const [, from] = /^<iframe src="([^"]+)"/.exec(code);
+  assert.equal(from, page.url().replace(/#/, '?embed#'));
+  await accessible(page, 'Code for another page');
+  await page.goto(from);
+  await page.locator('.embedded .plots canvas').first().waitFor();
+  await close();
+});
+
 test('the link of a server for others opens in a fresh browser, which saves nothing in the folder', async (test) => {
   const near = Object.values(networkInterfaces()).flat().find(({ family, internal }) => family === 'IPv4' && !internal);
   if (!near) return test.skip('this machine has no network');

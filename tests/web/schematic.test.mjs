@@ -71,7 +71,9 @@ ${[...Array(6).keys()].map((k) => `k${k} = { type = "spring", between = ["a", "g
 stop = 1
 record = ["k0.force"]
 `;
-const desk = setUp({ 'leaving.toml': leaving, 'high.toml': high, 'oscillator.toml': oscillator, 'driver.toml': driver, 'rotor.toml': rotor, 'stop.toml': stop, 'maxwell.toml': maxwell, 'held.toml': held, 'stick-slip.toml': stickSlip });
+const swing = oscillator.replace('[elements]', '[parameters]\nx0 = "5 mm"\n[elements]').replace('"5 mm" }', '"x0" }');
+const far = stickSlip.replace('stop = "8 s"', 'stop = "50 s"');
+const desk = setUp({ 'swing.toml': swing, 'far.toml': far, 'leaving.toml': leaving, 'high.toml': high, 'oscillator.toml': oscillator, 'driver.toml': driver, 'rotor.toml': rotor, 'stop.toml': stop, 'maxwell.toml': maxwell, 'held.toml': held, 'stick-slip.toml': stickSlip });
 const { open } = desk;
 
 // Where a symbol is, in the coordinates of the drawing.
@@ -291,6 +293,39 @@ test('a mass that is pulled starts where it is let go, and a drive gets another 
   await redrawn(page, () => page.mouse.move(box.x + box.width / 2 + 30, box.y + box.height / 2, { steps: 4 }));
   await page.mouse.up();
   assert.ok((await force()) > 1.2, String(await force()));
+  await close();
+});
+
+test('a start position that is a parameter stays one when its mass is pulled, and undo takes the pull as one step', async () => {
+  const { page, close } = await open('#file=swing.toml');
+  const before = await netlist(page);
+  const { x, y, width, height } = await page.locator('.element-handle[data-of="block"]').boundingBox();
+  await page.mouse.move(x + width / 2, y + height / 2);
+  await page.mouse.down();
+  for (const far of [6, 9, 12]) await redrawn(page, () => page.mouse.move(x + width / 2 + far, y + height / 2, { steps: 2 }));
+  await page.mouse.up();
+  const pulled = await netlist(page);
+  assert.match(pulled, /block = \{ position = "x0" \}/);
+  assert.ok(Number(/x0 = "([\d.]+) mm"/.exec(pulled)[1]) > 5, pulled);
+  await page.keyboard.press('Control+z');
+  assert.equal(await netlist(page), before);
+  await close();
+});
+
+// The hand goes 0.5 m, and takes along the block, which its drawing has no room for.
+test('a block that goes far is at rest in the drawing while it sticks', async () => {
+  const { page, close } = await open('#file=far.toml');
+  const places = [];
+  for (let part = 0; part <= 0.3; part += 0.05) {
+    await at(page, part);
+    const [block] = await Promise.all([boxOf(page, `${element('m1')} path`)]);
+    const shift = await page.locator(`.drawing path.node[data-node="block"]`).first().evaluate((path) => new DOMMatrix(getComputedStyle(path).transform).e);
+    const sticks = await page.locator('.drawing .slider').first().evaluate((node) => node.classList.contains('sticks'));
+    places.push({ part, x: block.x, shift, sticks });
+  }
+  const atRest = places.filter(({ sticks }) => sticks);
+  assert.ok(atRest.length >= 3, JSON.stringify(places));
+  for (const { shift } of atRest) assert.ok(Math.abs(shift - atRest[0].shift) < 0.1, JSON.stringify(places));
   await close();
 });
 
