@@ -10,7 +10,7 @@
 
 namespace rheonet {
 
-EnergyAccount::EnergyAccount(double tolerance, double length) : tolerance_(tolerance), length_(length) {}
+EnergyAccount::EnergyAccount(double tolerance, double length, bool parts) : tolerance_(tolerance), length_(length), parts_(parts) {}
 
 void EnergyAccount::attach(Dae& dae, Consistency& consistency) {
   dae_ = &dae;
@@ -45,6 +45,7 @@ void EnergyAccount::begin(double t, const std::vector<double>& y, const std::vec
   remember(t, last_);
   heat_ = StatePowers(*dae_).heat_of_laws();
   const double stored = StatePowers(*dae_).stored();
+  if (parts_) kinetic_ = StatePowers(*dae_).kinetic();
   if (!begun_) {
     stored_at_start_ = stored;
     begun_ = true;
@@ -165,8 +166,10 @@ EnergyAccount::Power EnergyAccount::lobatto(const Integrator& integrator, double
 void EnergyAccount::step(const Integrator& integrator) {
   const double a = integrator.previous_time(), b = integrator.time();
   if (!(b > a)) return;
+  before_ = {a, b, sum_, stored_, last_.dissipated, heat_};
   const Power pa = last_, pb = power_at_end(integrator);
   stored_ = StatePowers(*dae_).stored();
+  if (parts_) kinetic_ = StatePowers(*dae_).kinetic();
   last_ = pb;
   const double heat = StatePowers(*dae_).heat_of_laws();
   sum_.dissipated += heat - heat_;
@@ -177,6 +180,47 @@ void EnergyAccount::step(const Integrator& integrator) {
   sum_.supplied += added.supplied;
   sum_.dissipated += added.dissipated;
   largest_ = std::max({largest_, std::abs(stored_), std::abs(sum_.supplied), std::abs(sum_.dissipated)});
+}
+
+void EnergyAccount::sample(double t) {
+  const StatePowers now(*dae_);
+  samples_.push_back({t, now.stored(), now.kinetic(), now.dissipated(), now.heat_of_laws()});
+}
+
+// What is stored is a function of the state. What is dissipated until then is the sum of trapezoids between the samples, corrected so that it
+// reaches the account at the end of the step; the rest was supplied.
+std::vector<std::pair<double, EnergySoFar>> EnergyAccount::take_samples() {
+  std::vector<std::pair<double, EnergySoFar>> result;
+  if (samples_.empty()) return result;
+  const Before& from = before_;
+  const double end = before_.end, length = end - from.t;
+  double t = from.t, power = from.power, integral = 0;
+  const auto add = [&](double next, double next_power) {
+    integral += (next - t) * (power + next_power) / 2;
+    t = next;
+    power = next_power;
+  };
+  std::vector<double> integrals;
+  for (const Sample& s : samples_) {
+    add(s.t, s.power);
+    integrals.push_back(integral);
+  }
+  add(end, last_.dissipated);
+  const double off = sum_.dissipated - from.sum.dissipated - (heat_ - from.heat) - integral;
+  const double missing_before = from.sum.supplied - (from.stored - stored_at_start_) - from.sum.dissipated;
+  for (std::size_t k = 0; k < samples_.size(); ++k) {
+    const Sample& s = samples_[k];
+    const double share = length > 0 ? (s.t - from.t) / length : 0;
+    EnergySoFar then;
+    then.stored = s.stored - stored_at_start_;
+    then.dissipated = from.sum.dissipated + (s.heat - from.heat) + integrals[k] + share * off;
+    then.supplied = then.stored + then.dissipated + missing_before + share * (missing() - missing_before);
+    then.kinetic = s.kinetic;
+    then.elastic = s.stored - s.kinetic;
+    result.push_back({s.t, then});
+  }
+  samples_.clear();
+  return result;
 }
 
 }  // namespace rheonet

@@ -2,11 +2,13 @@
 
 #include <array>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "core/dae/consistency.hpp"
 #include "core/dae/dae.hpp"
 #include "core/dae/state_powers.hpp"
+#include "core/result/energy_so_far.hpp"
 #include "core/solve/integrator.hpp"
 
 namespace rheonet {
@@ -18,8 +20,8 @@ namespace rheonet {
 /// oscillates or will change its course, otherwise until it lies on a polynomial. Laws that know their heat in closed form provide it.
 class EnergyAccount {
  public:
-  /// `tolerance` is relative to the largest energy so far; `length` of the run [s].
-  EnergyAccount(double tolerance, double length);
+  /// `tolerance` is relative to the largest energy so far; `length` of the run [s]; `parts`: `so_far` will be asked for.
+  EnergyAccount(double tolerance, double length, bool parts);
   /// Switches to the equations of another set of modes.
   void attach(Dae& dae, Consistency& consistency);
 
@@ -28,12 +30,15 @@ class EnergyAccount {
   /// The view of the equations must be that of the end of the step.
   void step(const Integrator& integrator);
 
+  /// Looks at the energies at a time within the last step; times ascend. The view of the equations must be that of then.
+  void sample(double t);
+  /// The account at the times of the samples since the last call.
+  std::vector<std::pair<double, EnergySoFar>> take_samples();
+  EnergySoFar so_far() const { return {supplied(), stored(), dissipated(), kinetic_, stored_ - kinetic_}; }
+
   double supplied() const { return sum_.supplied; }
   double dissipated() const { return sum_.dissipated; }
   double stored() const { return stored_ - stored_at_start_; }
-  /// The energy stored at present: that of moving masses and inerters, and that of springs, laws and blocks [J].
-  double kinetic() const { return StatePowers(*dae_).kinetic(); }
-  double elastic() const { return stored_ - kinetic(); }
   double largest() const { return largest_; }
   double missing() const { return supplied() - stored() - dissipated(); }
 
@@ -51,6 +56,7 @@ class EnergyAccount {
   Dae* dae_ = nullptr;
   Consistency* consistency_ = nullptr;
   double tolerance_, length_;
+  bool parts_;
   bool adaptive_ = false;  ///< an element is driven at all its ends
   bool hidden_ = false;    ///< its motion may vary between steps in a way that their ends do not show
   bool needs_rates_ = true;
@@ -60,8 +66,13 @@ class EnergyAccount {
   std::array<double, remembered> times_{};       ///< step ends since the last `begin`, latest first
   std::size_t known_ = 0;                        ///< number of valid entries
   std::array<Power, remembered> differences_{};  ///< divided differences of the powers at the first 1, 2, ... of `times_`
+  struct Sample { double t, stored, kinetic, power, heat; };  ///< power: what is dissipated
+  std::vector<Sample> samples_;
+  /// The account at the beginning of the last step, which ended at `end`, and the dissipated power and the heat of laws there.
+  struct Before { double t = 0, end = 0; Power sum; double stored = 0, power = 0, heat = 0; } before_;
   double heat_ = 0;    ///< heat of laws that know it, at the time of `last_`
   double stored_ = 0, stored_at_start_ = 0, largest_ = 0;
+  double kinetic_ = 0;  ///< part of `stored_`, if `parts_`
   std::vector<double> y_, yp_;
 };
 

@@ -53,7 +53,7 @@ class Recorder final : public Observer {
         account_(settings.energy),
         tells_(settings.events != nullptr),
         switched_(scene_.elements.size(), 0) {
-    if (settings.account || account_) energy_.emplace(scene_.accuracy * numerics::energy_error_share, length_);
+    if (settings.account || account_) energy_.emplace(scene_.accuracy * numerics::energy_error_share, length_, static_cast<bool>(account_));
     for (const Record& record : scene_.records) names_.push_back(record.path);
   }
 
@@ -93,10 +93,7 @@ class Recorder final : public Observer {
   }
 
   void step(const Integrator& integrator) override {
-    if (energy_) {
-      energy_->step(integrator);
-      tell_energy(integrator.time());
-    }
+    if (energy_) energy_->step(integrator);
     const double until = integrator.time() - slack();
     for (; next_ <= scene_.output_intervals && row_time(next_) < until; ++next_) {
       // By round-off, an output time may lie before the step.
@@ -104,6 +101,11 @@ class Recorder final : public Observer {
       integrator.interpolate(t, 0, y_);
       integrator.interpolate(t, 1, yp_);
       write(row_time(next_), channels_.read(t, y_, yp_, rate(integrator)));
+      sample_energy(t);
+    }
+    if (account_) {
+      for (const auto& [t, energy] : energy_->take_samples()) account_(scene_time(t), energy);
+      tell_energy(integrator.time());
     }
     if (claims_.any()) {
       claims_.step(integrator.previous_time(), integrator.time(), [&](double t) -> const std::vector<double>& {
@@ -185,8 +187,17 @@ class Recorder final : public Observer {
     if (state_) state_(scene_time(event_time(t)), values);
   }
 
-  void tell_energy(double t) const {
-    if (account_) account_(scene_time(t), {energy_->supplied(), energy_->stored(), energy_->dissipated(), energy_->kinetic(), energy_->elastic()});
+  void tell_energy(double t) {
+    if (account_) account_(scene_time(t), energy_->so_far());
+    told_ = t;
+  }
+
+  /// The energies at a row, whose state the equations have just evaluated.
+  void sample_energy(double t) {
+    constexpr double least_share = 1.0 / 500;
+    if (!account_ || t - told_ < least_share * length_) return;
+    energy_->sample(t);
+    told_ = t;
   }
 
   double scene_time(double t) const { return t == length_ ? scene_.stop : scene_.start + t; }
@@ -226,6 +237,7 @@ class Recorder final : public Observer {
   int unknowns_ = -1;  ///< largest number in any mode
   const Integrator* last_ = nullptr;  ///< integrator of the last step; null since the last start
   double start_ = 0;                  ///< time of the last start [s]
+  double told_ = 0;                   ///< time of the last energies that are told [s]
   std::vector<double> y_, yp_, before_;
 };
 

@@ -10,14 +10,9 @@
 #include "core/netlist/scene.hpp"
 #include "core/network/error.hpp"
 #include "core/result/claims.hpp"
+#include "core/result/energy_so_far.hpp"
 
 namespace rheonet {
-
-/// The energy account up to a time of a run [J]; its defect is supplied - stored - dissipated.
-struct EnergySoFar {
-  double supplied = 0, stored = 0, dissipated = 0;  ///< since the start; `stored` is a gain
-  double kinetic = 0, elastic = 0;                  ///< stored at that time
-};
 
 struct RunSettings {
   std::FILE* csv = nullptr;     ///< Receives the rows during the run; nullptr: not written.
@@ -28,7 +23,8 @@ struct RunSettings {
   std::function<void(double time, const std::vector<double>& values)> state = {};
   /// Called with each event, as written to `events`.
   std::function<void(double time, const std::string& element, const char* what, int direction)> event = {};
-  /// Called with the energy account at the start, at the end of each step, and after each event.
+  /// Called with the energy account at the start, at the end of each step, after each event, and at rows that are at least 1/500 of the run
+  /// apart. Two calls with the same time are the two sides of an event.
   std::function<void(double time, const EnergySoFar& energy)> energy = {};
   const std::atomic<bool>* interrupt = nullptr;  ///< Set to true by the caller to stop the run, which throws SimulationError.
   std::function<void(double fraction)> progress =

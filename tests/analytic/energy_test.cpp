@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "core/netlist/read.hpp"
 #include "core/network/component.hpp"
@@ -143,6 +144,46 @@ TEST_CASE("Energy of an element between prescribed motions, beside a swing that 
     for (const char* method : {"ida", "auto"}) {
       CAPTURE(method);
       check_account(scene(belt + lagging + swing) + fmt::format("method = \"{}\"\n", method), {supplied, stored, supplied - stored});
+    }
+  }
+}
+
+// Exact arcs take long steps: what is told between their ends is that of the state then.
+TEST_CASE("Energies told during a run are those of the state, and both sides of an impact are told") {
+  const std::string ball = R"([nodes]
+ball = { position = 0.37 }
+[elements]
+ball = { type = "mass", at = "ball", mass = "m" }
+weight = { type = "force", at = "ball", force = "-9.3*m" }
+floor = { type = "stop", between = ["ball", "ground"], lower = 0, stiffness = "inf", restitution = 0.7 }
+)";
+  const std::string swing = mass + spring + dashpot + "[nodes]\nend = { position = 0.0271 }\n";
+  struct Case { std::string toml, velocity; bool hits; };
+  for (const auto& [toml, velocity, hits] : {Case{netlist({{"m", m}}, ball, 0.8), "ball.velocity", true}, {scene(swing, 0.589), "end.velocity", false}}) {
+    for (const char* method : {"auto", "ida"}) {
+      const ReadResult read = read_scene_text(toml + fmt::format("method = \"{}\"\naccuracy = 1e-7\nrecord = [\"{}\"]\n", method, velocity), "scene.toml", RHEONET_SOURCE_DIR "/netlists", declarations(), {});
+      REQUIRE(read.scene);
+      std::map<double, double> velocities;
+      std::vector<std::pair<double, EnergySoFar>> told;
+      RunSettings settings;
+      settings.row = [&](double time, const std::vector<double>& row) { velocities[time] = row[0]; };
+      settings.energy = [&](double time, const EnergySoFar& energy) { told.push_back({time, energy}); };
+      const Summary summary = run(*read.scene, settings);
+      int rows = 0, jumps = 0;
+      for (std::size_t k = 0; k < told.size(); ++k) {
+        const auto& [time, energy] = told[k];
+        CAPTURE(time);
+        CHECK_LE(std::abs(energy.supplied - energy.stored - energy.dissipated), 1e-5 * summary.largest);
+        CHECK_GE(energy.dissipated, -1e-5 * summary.largest);
+        if (k > 0) CHECK_GE(time, told[k - 1].first);
+        if (k > 0 && time == told[k - 1].first && energy.dissipated > told[k - 1].second.dissipated + 0.1 * summary.largest) ++jumps;
+        const auto row = velocities.find(time);
+        if (row == velocities.end() || (k > 0 && told[k - 1].first == time)) continue;
+        ++rows;
+        CHECK_LE(std::abs(energy.kinetic - m * row->second * row->second / 2), 1e-5 * summary.largest);
+      }
+      CHECK_GE(rows, 100);
+      CHECK_EQ(jumps, hits ? 2 : 0);
     }
   }
 }

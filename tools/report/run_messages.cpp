@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <chrono>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <span>
 
@@ -53,14 +54,18 @@ class RowTeller {
   Clock::time_point last_ = Clock::now();
 };
 
-/// The energy account over the run in bounded memory, sampled at approximately equal intervals.
+/// The energy account over the run in bounded memory: at approximately equal intervals, and on both sides of an event at which it jumps.
 class EnergyCourse {
  public:
   EnergyCourse(double start, double stop) : next_(start), every_((stop - start) / most) {}
 
   void add(double time, const EnergySoFar& energy) {
+    const double jump = std::max({std::abs(energy.supplied - last_.energy.supplied), std::abs(energy.dissipated - last_.energy.dissipated), std::abs(energy.kinetic - last_.energy.kinetic)});
+    largest_ = std::max({largest_, std::abs(energy.supplied), std::abs(energy.dissipated), energy.kinetic, energy.elastic});
+    const bool jumps = !points_.empty() && time == last_.time && jump > visible * largest_ && static_cast<double>(points_.size()) < 3 * most;
+    if (jumps && points_.back().time != time) keep();
     last_ = {time, energy};
-    if (time < next_) return;
+    if (!jumps && time < next_) return;
     keep();
     next_ = time + every_;
   }
@@ -78,7 +83,8 @@ class EnergyCourse {
   }
 
  private:
-  static constexpr double most = 1000;
+  static constexpr double most = 400;
+  static constexpr double visible = 1e-4;  ///< share of the largest energy
   struct Point {
     double time;
     EnergySoFar energy;
@@ -87,7 +93,7 @@ class EnergyCourse {
 
   std::vector<Point> points_;
   Point last_{};
-  double next_, every_;
+  double next_, every_, largest_ = 0;
 };
 
 /// The first `most` events.
