@@ -239,7 +239,7 @@ std::vector<std::string> expression_names(const Scene& scene) {
 
 std::vector<std::optional<Record>> find_records(const std::vector<TomlValue>& paths,
                                                 const std::set<std::string>& doubtful, Context& context,
-                                                Scene& scene, bool sensed) {
+                                                Scene& scene, bool sensed, const SceneIndex* known) {
   DiagnosticList& diagnostics = context.diagnostics;
   std::vector<Path> parts;
   std::vector<std::string> objects;
@@ -256,7 +256,8 @@ std::vector<std::optional<Record>> find_records(const std::vector<TomlValue>& pa
     parts.push_back({path.text.substr(0, dot), whole ? "" : path.text.substr(dot + 1), whole && !expression ? nullptr : &path});
     objects.push_back(parts.back().object);
   }
-  const SceneIndex index(scene, objects);
+  std::optional<SceneIndex> own;
+  const SceneIndex& index = known ? *known : own.emplace(scene, objects);
   std::vector<std::optional<Record>> records;
   for (const Path& path : parts) {
     records.emplace_back();

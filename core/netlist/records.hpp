@@ -8,6 +8,7 @@
 #include "core/netlist/context.hpp"
 #include "core/netlist/expression.hpp"
 #include "core/netlist/scene.hpp"
+#include "core/netlist/scene_index.hpp"
 
 namespace rheonet {
 
@@ -34,10 +35,11 @@ void add_records(const std::vector<std::string>& paths, const std::set<std::stri
 bool may_be_sensed(const Record& record);
 
 /// The records at these paths, each a string with its place; absent for a path that is a mistake. Sums over assemblies are
-/// added to the expressions of the scene. `sensed`: inputs of blocks, for the channels that a hint offers.
+/// added to the expressions of the scene. `sensed`: inputs of blocks, for the channels that a hint offers. `known`: an index with
+/// what stands before the last dot of each path, which is made here otherwise.
 std::vector<std::optional<Record>> find_records(const std::vector<TomlValue>& paths,
                                                 const std::set<std::string>& doubtful, Context& context,
-                                                Scene& scene, bool sensed = false);
+                                                Scene& scene, bool sensed = false, const SceneIndex* known = nullptr);
 
 /// Reads initial values from `[nodes]`.
 void read_initial_values(const TomlValue& nodes, const Environment& environment, const std::set<std::string>& doubtful,

@@ -40,6 +40,11 @@ class Connection {
 
   void make() {
     if (!find_sources()) return;
+    ends_.resize(scene_.blocks.size());
+    units_.resize(scene_.blocks.size());
+    for (const LooseEnd& end : loose_.ends)
+      if (end.block >= 0) ends_[at(end.block)].push_back(&end);
+    for (const OwnUnit& own : loose_.units) units_[at(own.block)].push_back(&own);
     for (const BlockFunction& function : loose_.functions) functions_[function.block] = &function;
     find_units();
     for (const BlockFunction& function : loose_.functions) compile(function);
@@ -77,7 +82,7 @@ class Connection {
           scene_.feeds.push_back({end.element, end.connection->parameter, block, end.connection->sign});
         continue;
       }
-      const int source = block < 0 ? sensed(end, index.find(end.path)) : block;
+      const int source = block < 0 ? sensed(end, index) : block;
       all = all && source >= 0;
       if (source >= 0) scene_.blocks[at(end.block)].inputs.push_back({block >= 0, source, end.connection->sign});
     }
@@ -85,14 +90,15 @@ class Connection {
   }
 
   /// Index of a quantity of the network in Scene::sensed; -1, with a mistake, if the path names none.
-  int sensed(const LooseEnd& end, const SceneIndex::Found& found) {
+  int sensed(const LooseEnd& end, const SceneIndex& index) {
+    const SceneIndex::Found found = index.find(end.path);
     if (end.path.find('.') == end.path.npos || found.any()) {
       refuse(end, found);
       return -1;
     }
     TomlValue path = *end.connection->source;
     path.text = end.path;
-    auto record = std::move(find_records({path}, doubtful_, context_, scene_, true).front());
+    auto record = std::move(find_records({path}, doubtful_, context_, scene_, true, &index).front());
     if (!record) return -1;
     if (!may_be_sensed(*record)) {
       if (scene_.blocks[at(end.block)].of_stop_when) {
@@ -141,8 +147,8 @@ class Connection {
   }
 
   BlockUnit given(int block, Parameter::Unit kind) const {
-    for (const OwnUnit& own : loose_.units)
-      if (own.block == block && parameter(own).unit == kind && !own.unit.open) return own.unit;
+    for (const OwnUnit* own : units_[at(block)])
+      if (parameter(*own).unit == kind && !own->unit.open) return own->unit;
     return {};
   }
 
@@ -227,12 +233,12 @@ class Connection {
     if (declared.is_function()) return {};  // its table has a mistake
     const Declaration::Inputs& inputs = declared.inputs;
     BlockUnit unit = inputs.most == 0 ? BlockUnit{{}, 0, false} : taken_in(block);
-    for (const OwnUnit& own : loose_.units) {
-      const Parameter::Unit kind = parameter(own).unit;
+    for (const OwnUnit* own : units_[at(block)]) {
+      const Parameter::Unit kind = parameter(*own).unit;
       const bool divides = kind == Parameter::Unit::divides;
-      if (own.block != block || (kind != Parameter::Unit::own && !divides)) continue;
-      const bool open = unit.open || (own.unit.open && !divides);
-      unit = unit_of(product(one_of(unit), divides ? raised(one_of(own.unit), -1) : one_of(own.unit)));
+      if (kind != Parameter::Unit::own && !divides) continue;
+      const bool open = unit.open || (own->unit.open && !divides);
+      unit = unit_of(product(one_of(unit), divides ? raised(one_of(own->unit), -1) : one_of(own->unit)));
       unit.open = open;
     }
     if (inputs.integrates) unit.dimension = unit.dimension * dimension_of(Quantity::time, context_.domain);
@@ -261,17 +267,17 @@ class Connection {
     const auto differs = [](const BlockUnit& a, const BlockUnit& b) {
       return !fits(one_of(a), one_of(b));
     };
-    for (const LooseEnd& end : loose_.ends) {
-      if (end.block != block) continue;
-      const BlockUnit unit = unit_of_end(end);
+    for (std::size_t k = 0; k < ends_[at(block)].size(); ++k) {
+      const LooseEnd& end = *ends_[at(block)][k];
+      const BlockUnit unit = unit_of_input(scene_.blocks[at(block)].inputs[k]);
       if (!differs(unit, in)) continue;
       const Within within(diagnostics_, end);
       diagnostics_.error(end.connection->source->spot, "`" + end.path + "` is " + words(unit) + ", but the other inputs of `" +
                                                   name(block) + "` are " + words(in),
                       "all inputs of a block have one unit: put a `gain` before it");
     }
-    for (const OwnUnit& own : loose_.units) {
-      if (own.block != block) continue;
+    for (const OwnUnit* given : units_[at(block)]) {
+      const OwnUnit& own = *given;
       const Parameter::Unit kind = parameter(own).unit;
       const BlockUnit& expected = kind == Parameter::Unit::input ? in : kind == Parameter::Unit::output ? out : own.unit;
       if (differs(own.unit, expected))
@@ -279,15 +285,6 @@ class Connection {
                                               (kind == Parameter::Unit::input ? "takes in" : "puts out") + ", found " +
                                               words(own.unit));
     }
-  }
-
-  BlockUnit unit_of_end(const LooseEnd& end) const {
-    std::size_t number = 0;
-    for (const LooseEnd& other : loose_.ends) {
-      if (&other == &end) break;
-      if (other.block == end.block) ++number;
-    }
-    return unit_of_input(scene_.blocks[at(end.block)].inputs[number]);
   }
 
   void check_feed(const LooseEnd& end, const SceneFeed& feed) {
@@ -315,6 +312,8 @@ class Connection {
   DiagnosticList& diagnostics_;
   Scene& scene_;
   std::map<int, const BlockFunction*> functions_;  ///< of blocks
+  std::vector<std::vector<const LooseEnd*>> ends_;  ///< of each block: its inputs, in their order
+  std::vector<std::vector<const OwnUnit*>> units_;  ///< of each block: of its parameters
 };
 
 }  // namespace

@@ -26,7 +26,7 @@ export class Gallery {
   // onopen(file): a netlist of the folder is chosen; ontext(name, text): a file of this machine; onnew(): an empty one.
   constructor({ onopen, ontext, onnew }) {
     this.onopen = onopen;
-    const chooser = element('input', { type: 'file', accept: '.toml', hidden: true, 'aria-label': t('Open a file …') });
+    const chooser = element('input', { type: 'file', accept: '.toml' });
     chooser.addEventListener('change', async () => {
       const [file] = chooser.files;
       chooser.value = '';
@@ -40,7 +40,7 @@ export class Gallery {
     this.dialog = element('dialog', { class: 'gallery', 'aria-labelledby': 'gallery-title' },
       element('div', { class: 'dialog-head' }, element('h2', { id: 'gallery-title' }, t('Gallery')), this.find, this.level,
         element('button', { type: 'button', onclick: () => (this.dialog.close(), onnew()) }, t('New scene')),
-        chooser, element('button', { type: 'button', onclick: () => chooser.click() }, t('Open a file …')),
+        element('button', { type: 'button', onclick: () => chooser.click() }, t('Open a file …')),
         element('button', { type: 'button', onclick: () => this.dialog.close(), 'aria-label': t('Close') }, '✕')),
       (this.nothing = element('p', { class: 'note', role: 'status' })), this.list);
     for (const field of [this.find, this.level]) field.addEventListener('input', () => this.filter());

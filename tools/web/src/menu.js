@@ -22,6 +22,9 @@ export function menu(label, items) {
       return entry;
     }));
     list.hidden = false;
+    list.style.right = '';
+    const { left } = list.getBoundingClientRect();
+    if (left < 4) list.style.right = `${left - 4}px`; // It stays on the screen of a phone.
     button.setAttribute('aria-expanded', 'true');
     entries()[0]?.focus();
   };
