@@ -101,7 +101,7 @@ class Recorder final : public Observer {
       integrator.interpolate(t, 0, y_);
       integrator.interpolate(t, 1, yp_);
       write(row_time(next_), channels_.read(t, y_, yp_, rate(integrator)));
-      sample_energy(t);
+      if (account_) energy_->sample(t);  // The equations have just evaluated this state.
     }
     if (account_) {
       for (const auto& [t, energy] : energy_->take_samples()) account_(scene_time(t), energy);
@@ -187,17 +187,8 @@ class Recorder final : public Observer {
     if (state_) state_(scene_time(event_time(t)), values);
   }
 
-  void tell_energy(double t) {
+  void tell_energy(double t) const {
     if (account_) account_(scene_time(t), energy_->so_far());
-    told_ = t;
-  }
-
-  /// The energies at a row, whose state the equations have just evaluated.
-  void sample_energy(double t) {
-    constexpr double least_share = 1.0 / 500;
-    if (!account_ || t - told_ < least_share * length_) return;
-    energy_->sample(t);
-    told_ = t;
   }
 
   double scene_time(double t) const { return t == length_ ? scene_.stop : scene_.start + t; }
@@ -237,7 +228,6 @@ class Recorder final : public Observer {
   int unknowns_ = -1;  ///< largest number in any mode
   const Integrator* last_ = nullptr;  ///< integrator of the last step; null since the last start
   double start_ = 0;                  ///< time of the last start [s]
-  double told_ = 0;                   ///< time of the last energies that are told [s]
   std::vector<double> y_, yp_, before_;
 };
 

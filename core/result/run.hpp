@@ -23,8 +23,7 @@ struct RunSettings {
   std::function<void(double time, const std::vector<double>& values)> state = {};
   /// Called with each event, as written to `events`.
   std::function<void(double time, const std::string& element, const char* what, int direction)> event = {};
-  /// Called with the energy account at the start, at the end of each step, after each event, and at rows that are at least 1/500 of the run
-  /// apart. Two calls with the same time are the two sides of an event.
+  /// Called with the energy account at the start, at the end of each step, after each event, and at each row. Two calls with the same time are the two sides of an event.
   std::function<void(double time, const EnergySoFar& energy)> energy = {};
   const std::atomic<bool>* interrupt = nullptr;  ///< Set to true by the caller to stop the run, which throws SimulationError.
   std::function<void(double fraction)> progress =
