@@ -83,6 +83,17 @@ test('of the curves to choose from, the run is nearest to the one that is said t
   }
 });
 
+test('answers that are curves over a position have its name at their axis', async () => {
+  const context = await chromium.newContext({ viewport: { width: 1300, height: 950 } });
+  const { page, wrong } = await watched(context, server.origin);
+  await page.goto(`${server.address}#lesson=teaching/coulomb-to-iwan.toml`);
+  await offered(page);
+  const names = await page.locator('.choices svg').evaluateAll((all) => all.map((svg) => [...svg.querySelectorAll('text')].map(({ textContent }) => textContent).join(' ')));
+  assert.ok(names.length > 1 && names.every((each) => each === 'iwan.force shaft.position'), String(names));
+  assert.deepEqual(wrong, []);
+  await context.close();
+});
+
 test('the result is seen only after the prediction, which stays beside the run', async () => {
   const { page, close } = await open('#lesson=belt.toml', {}, offered);
   await done(page);

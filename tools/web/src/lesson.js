@@ -120,7 +120,7 @@ export class Lesson {
     const record = this.record(this.told.predict.y);
     if (!record) return;
     const done = element('button', { type: 'button', class: 'primary', disabled: true, onclick: () => this.compare() }, t('Compare with the run'));
-    this.prediction = predictionOf(this.told.predict, () => (done.disabled = !this.prediction.isComplete), record);
+    this.prediction = predictionOf(this.told.predict, () => (done.disabled = !this.prediction.isComplete), record, this.record(this.told.predict.x));
     this.done = done;
     this.ask.append(this.prediction.host, done);
     const { left } = this;

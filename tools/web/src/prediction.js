@@ -6,8 +6,8 @@ import { Sketch } from './sketch.js';
 
 const [width, height] = [180, 110]; // of the little picture of a choice
 
-// Pictures of curves to the same scale; of a choice without a curve nothing.
-function pictures(choices, record) {
+// Pictures of curves to the same scale, with the names of their axes; of a choice without a curve nothing.
+function pictures(choices, names) {
   const ends = (key) => {
     const values = choices.flatMap((choice) => choice[key] ?? []);
     const [low, high] = [Math.min(...values), Math.max(...values)];
@@ -21,17 +21,17 @@ function pictures(choices, record) {
     const points = choice.x.map((value, k) => `${place(value, x, width)} ${(height - place(choice.y[k], y, height)).toFixed(1)}`);
     const zero = y[0] <= 0 && y[1] >= 0 ? `<path class="choice-zero" d="M8 ${(height - place(0, y, height)).toFixed(1)}H${width - 8}"/>` : '';
     host.innerHTML = `<svg viewBox="0 0 ${width} ${height + 14}"><g transform="translate(0 10)"><path class="choice-axis" d="M8 0V${height - 6}H${width - 8}"/>${zero}<path class="choice-curve" d="M${points.join('L')}"/></g><text x="8" y="8"></text><text x="${width - 8}" y="${height + 13}" text-anchor="end"></text></svg>`;
-    host.querySelectorAll('text').forEach((text, i) => (text.textContent = [record?.path ?? '', t('time')][i]));
+    host.querySelectorAll('text').forEach((text, i) => (text.textContent = names[i]));
     return host;
   });
 }
 
 class Choice {
-  constructor({ choices }, onchange, record) {
+  constructor({ choices }, onchange, record, across) {
     Object.assign(this, { choices, onchange });
     this.chosen = null;
     const name = freshId('choice');
-    const drawn = pictures(choices, record);
+    const drawn = pictures(choices, [record?.path ?? '', across?.path ?? t('time')]);
     this.inputs = choices.map((choice, k) => {
       const input = element('input', { type: 'radio', name });
       input.addEventListener('change', () => this.restore(k));
@@ -111,4 +111,5 @@ class Drawing {
   }
 }
 
-export const predictionOf = (asked, onchange, record) => (asked.choices ? new Choice(asked, onchange, record) : new Drawing(asked, onchange, record));
+// `record`: what is predicted; `across`: over what, if that is not the time.
+export const predictionOf = (asked, onchange, record, across) => (asked.choices ? new Choice(asked, onchange, record, across) : new Drawing(asked, onchange, record));
