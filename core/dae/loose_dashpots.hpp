@@ -39,7 +39,7 @@ class LooseDashpots {
   ConductanceNetwork network_;
   std::vector<Conductance> conductances_;  ///< From each node to the held one, then of each dashpot.
   Eigen::VectorXd potential_;              ///< Of each node.
-  std::vector<double> rounding_, change_;  ///< Of each dashpot's force.
+  std::vector<double> rounding_, change_;  ///< For each dashpot: round-off of its force, and the correction.
 };
 
 }  // namespace rheonet

@@ -35,8 +35,8 @@ void add_records(const std::vector<std::string>& paths, const std::set<std::stri
 bool may_be_sensed(const Record& record);
 
 /// The records at these paths, each a string with its place; absent for a path that is a mistake. Sums over assemblies are
-/// added to the expressions of the scene. `sensed`: inputs of blocks, for the channels that a hint offers. `known`: an index with
-/// what stands before the last dot of each path, which is made here otherwise.
+/// added to the expressions of the scene. `sensed`: inputs of blocks, for the channels that a hint offers. `known`: an index of
+/// the scene that has the owner of each path (`k1` of `k1.force`); without it an index is built.
 std::vector<std::optional<Record>> find_records(const std::vector<TomlValue>& paths,
                                                 const std::set<std::string>& doubtful, Context& context,
                                                 Scene& scene, bool sensed = false, const SceneIndex* known = nullptr);

@@ -17,7 +17,7 @@ struct Conductance { int a, b; double value; };
 class ConductanceNetwork {
  public:
   ConductanceNetwork() = default;
-  /// Finds an order of elimination with little fill-in. It depends on what is connected, and not on the values.
+  /// Finds an order of elimination with little fill-in. The order depends on the connections alone, so that one network is solved with many sets of values.
   ConductanceNetwork(const std::vector<Conductance>& connected, Eigen::Index unknowns);
   /// `x` holds the right hand sides, then the solution. `conductances` connect what the constructor was told, with values of their own. Returns
   /// false, with `x` unchanged, if some unknowns are not connected to the held node.

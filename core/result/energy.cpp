@@ -187,13 +187,13 @@ void EnergyAccount::sample(double t) {
   samples_.push_back({t, now.stored(), now.kinetic(), now.dissipated(), now.heat_of_laws()});
 }
 
-// What is stored is a function of the state. What is dissipated until then is the sum of trapezoids between the samples, corrected so that it
-// reaches the account at the end of the step; the rest was supplied.
+// The state gives the stored energy. The dissipated energy is the trapezoidal integral of the power over the samples; a correction that grows
+// with time makes it equal to the account at the end of the step. The supplied energy is the sum of both.
 std::vector<std::pair<double, EnergySoFar>> EnergyAccount::take_samples() {
   std::vector<std::pair<double, EnergySoFar>> result;
   if (samples_.empty()) return result;
   const Before& from = before_;
-  const double end = before_.end, length = end - from.t;
+  const double length = from.end - from.t;
   double t = from.t, power = from.power, integral = 0;
   const auto add = [&](double next, double next_power) {
     integral += (next - t) * (power + next_power) / 2;
@@ -205,7 +205,7 @@ std::vector<std::pair<double, EnergySoFar>> EnergyAccount::take_samples() {
     add(s.t, s.power);
     integrals.push_back(integral);
   }
-  add(end, last_.dissipated);
+  add(from.end, last_.dissipated);
   const double off = sum_.dissipated - from.sum.dissipated - (heat_ - from.heat) - integral;
   const double missing_before = from.sum.supplied - (from.stored - stored_at_start_) - from.sum.dissipated;
   for (std::size_t k = 0; k < samples_.size(); ++k) {

@@ -66,7 +66,7 @@ class EnergyAccount {
   std::array<double, remembered> times_{};       ///< step ends since the last `begin`, latest first
   std::size_t known_ = 0;                        ///< number of valid entries
   std::array<Power, remembered> differences_{};  ///< divided differences of the powers at the first 1, 2, ... of `times_`
-  struct Sample { double t, stored, kinetic, power, heat; };  ///< power: what is dissipated
+  struct Sample { double t, stored, kinetic, power, heat; };  ///< `power` is the dissipated power
   std::vector<Sample> samples_;
   /// The account at the beginning of the last step, which ended at `end`, and the dissipated power and the heat of laws there.
   struct Before { double t = 0, end = 0; Power sum; double stored = 0, power = 0, heat = 0; } before_;

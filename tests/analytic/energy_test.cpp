@@ -148,7 +148,7 @@ TEST_CASE("Energy of an element between prescribed motions, beside a swing that 
   }
 }
 
-// Exact arcs take long steps: what is told between their ends is that of the state then.
+// Exact arcs take long steps. The energies between the ends of a step must be those of the states there.
 TEST_CASE("Energies told during a run are those of the state, and both sides of an impact are told") {
   const std::string ball = R"([nodes]
 ball = { position = 0.37 }

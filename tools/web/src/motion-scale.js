@@ -69,8 +69,9 @@ export class MotionScale {
     }
   }
 
-  // Groups the nodes between which no element stretches beyond `room`. From a group that leaves the drawing the motion of one of its nodes is
-  // subtracted: of one that rubs on what is outside, so that it is at rest while it sticks, or else of a mass; the mean motion if there is none.
+  // Groups the nodes between which no element stretches beyond `room`. A group that leaves the drawing is shown
+  // relative to one of its nodes: a node with friction to something outside, which then rests while it sticks, otherwise a mass. Without either it is
+  // shown relative to its mean motion.
   follow() {
     const top = (node) => {
       let at = node;

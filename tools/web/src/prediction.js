@@ -111,5 +111,5 @@ class Drawing {
   }
 }
 
-// `record`: what is predicted; `across`: over what, if that is not the time.
+// `record` is on the vertical axis, `across` on the horizontal one (the time if absent).
 export const predictionOf = (asked, onchange, record, across) => (asked.choices ? new Choice(asked, onchange, record, across) : new Drawing(asked, onchange, record));
